@@ -1,0 +1,188 @@
+"""Every knob, as kw_only dataclasses: the Hydra schema, and the settings records that functions take.
+
+Standard library only. Angles are degrees here and radians inside; lengths are metres, image sizes pixels. Hydra composes
+these from conf/ (unknown keys raise); `hash` lets one be a static argument of a jitted function, so treat a record as
+read-only once made (`dataclasses.replace` makes a changed copy).
+"""
+
+from dataclasses import dataclass, field
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class SceneConfig:
+    """What is wanted, in words: conf/scene/*.yaml."""
+
+    name: str = "unnamed"
+    theme: str = ""
+    rooms: list[str] = field(default_factory=list)  # the room programme: hall, library, kitchen, bedroom, bathroom ...
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class PlanConfig:
+    """Where the floor plan comes from."""
+
+    file: str | None = None  # a plan of the user's own; None asks the language backend
+    max_iterations: int = 8  # propose - validate - correct rounds before giving up
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class CameraSettings:
+    """View planning (paper, "Camera Viewpoint Generation")."""
+
+    width: int = 688
+    height: int = 384
+    fov: float = 60.0  # vertical; the paper's 60 degrees is vertical in its code
+    eye_height: float = 1.6
+    perimeter: int = 16
+    overhead: int = 8
+    doorway: bool = True  # one view through each doorway: ours, the paper has none
+    wall_offset: float = 0.4
+    prune_angle: float = 10.0  # perimeter views this close to a bootstrap view are dropped
+    clearance: float = 0.3  # free air around a camera
+    heldout_per_room: int = 8
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class FurnishConfig:
+    enabled: bool = True
+    density: float = 1.0  # 0..1: share of the optional pieces that are tried
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class TextureSettings:
+    """Texture accumulation (paper, "Scaffold Mesh Texturing Details")."""
+
+    texel_size: float = 0.02
+    min_facing: float = 0.15  # cosine between normal and view below which nothing is projected
+    occlusion_tolerance: float = 0.02  # metres beyond the local depth maximum; the paper's 0.10 leaks (facts.md)
+    opaque_weight: float = 0.5  # weight at which a texel counts as fully known
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class ConditionConfig:
+    """Which of the scaffold's signals the image model is shown (paper, ablation of conditioning modalities)."""
+
+    wall_texture: bool = True
+    objects: str = "textured"  # textured | boxes | none
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class VerifySettings:
+    """Depth-edge recall (paper, "Image Verification")."""
+
+    enabled: bool = True
+    low: float = 0.1  # Canny thresholds as shares of the normalised depth range
+    high: float = 0.3
+    dilation: int = 10  # pixels at 1376 wide, scaled with the image
+    min_recall: float = 0.8
+    max_attempts: int = 4
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class RasterSettings:
+    """The constants of the rasterizer (design.md section 5); static under jit."""
+
+    blur: float = 0.3  # px^2 added to the diagonal of the projected covariance
+    alpha_min: float = 1 / 255  # contributions below are dropped
+    alpha_max: float = 0.99  # and clamped above, in value and gradient
+    transmittance_min: float = 1e-4  # a pixel is finished below
+    near: float = 0.05  # metres
+    frustum_margin: float = 1.3  # EWA Jacobian clamped at this multiple of tan(fov / 2)
+    tile: int = 8
+    chunk: int = 8
+    block: int = 64
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class FitSettings:
+    """Initialisation and optimisation of the gaussians (paper, "Geometry-Regularized 3DGS Scene Reconstruction")."""
+
+    init: str = "flat"  # flat | isotropic | random
+    spacing: float = 0.03  # metres between gaussians of the initial cloud
+    opacity: float = 0.88  # initial
+    steps: int = 480  # optimiser steps per room
+    rounds: int = 2  # rooms see their neighbours' latest gaussians this many times
+    ssim_weight: float = 0.2
+    depth_weight: float = 0.7  # per metre
+    lr_means: float = 2e-4
+    lr_quats: float = 1e-3
+    lr_scales: float = 5e-3
+    lr_opacities: float = 5e-2
+    lr_sh: float = 5e-3
+    lr_final: float = 0.1  # learning rates decay to this share
+    sh_degree: int = 0
+    curve_points: int = 6  # held-out evaluations along the fit
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class NavigationSettings:
+    """Occupancy grid (paper, "Navigability")."""
+
+    cell: float = 0.15
+    body_radius: float = 0.25
+    obstacle_height: float = 1.8  # floor-standing things below this block a body
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class EvaluateConfig:
+    min_overlap: float = 0.3  # share of shared surface for a reprojection pair
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class ReportConfig:
+    enabled: bool = True
+    video: bool = True
+    fps: int = 24
+    walking_speed: float = 1.4  # metres a second along the fly-through
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class LanguageConfig:
+    name: str = "grammar"
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class ImageConfig:
+    name: str = "procedural"
+    drift: float = 0.02  # standard deviation of the tone a view invents where its condition shows only depth
+    supersampling: int = 2  # geometry samples per pixel side
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class ObjectsConfig:
+    name: str = "procedural"
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class DepthConfig:
+    name: str = "procedural"
+    noise: float = 0.01  # relative, of the offline depth model
+    softness: float = 1.0  # pixels by which it blurs edges
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class RunConfig:
+    """The whole of a run; conf/config.yaml and what the command line says."""
+
+    scene: SceneConfig = field(default_factory=SceneConfig)
+    plan: PlanConfig = field(default_factory=PlanConfig)
+    cameras: CameraSettings = field(default_factory=CameraSettings)
+    furnish: FurnishConfig = field(default_factory=FurnishConfig)
+    texture: TextureSettings = field(default_factory=TextureSettings)
+    condition: ConditionConfig = field(default_factory=ConditionConfig)
+    verify: VerifySettings = field(default_factory=VerifySettings)
+    raster: RasterSettings = field(default_factory=RasterSettings)
+    fit: FitSettings = field(default_factory=FitSettings)
+    navigation: NavigationSettings = field(default_factory=NavigationSettings)
+    evaluate: EvaluateConfig = field(default_factory=EvaluateConfig)
+    report: ReportConfig = field(default_factory=ReportConfig)
+    language: LanguageConfig = field(default_factory=LanguageConfig)
+    image: ImageConfig = field(default_factory=ImageConfig)
+    objects: ObjectsConfig = field(default_factory=ObjectsConfig)
+    depth: DepthConfig = field(default_factory=DepthConfig)
+    variant: str = "full"
+    preset: str = "standard"
+    seed: int = 0
+    output: str | None = None  # run folder; None lets Hydra's outputs/<scene>/<variant>/<seed> stand
+    overwrite: bool = False  # a folder made by another configuration is refused unless this is true
+    debug: bool = False  # tracebacks instead of one-line errors

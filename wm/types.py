@@ -1,0 +1,135 @@
+"""The records that the floors hand to each other.
+
+Units are metres and radians; z is up; right-handed. Camera axes are OpenCV's (x right, y down, z forward); pixel (i, j) has its
+centre at (i + 0.5, j + 0.5); depth is z-depth, not ray length; quaternions are wxyz; images are float32 in [0, 1], sRGB-encoded,
+`[h, w, 3]`. Records on the host hold NumPy arrays, records on the device JAX arrays; each says which.
+"""
+
+import dataclasses
+import enum
+from typing import Any
+
+import chex
+import jax
+import numpy as np
+
+OUTSIDE = -1
+"""`Mesh.face_room` of a face that belongs to no room (the building's outer skin), and `Mesh.face_object` of structure."""
+
+
+class SurfaceKind(enum.IntEnum):
+    """What a triangle of the scaffold is part of (`Mesh.face_kind`)."""
+
+    WALL = 0
+    FLOOR = 1
+    CEILING = 2
+    REVEAL = 3  # the jambs, head and sill inside an opening
+    PANE = 4  # the glass that closes a window
+    OBJECT = 5
+    EXTERIOR = 6  # the outer skin: never seen from inside
+
+
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True)
+class Camera:
+    """A pinhole camera; `width` and `height` are static under jit, the rest are arrays (host or device).
+
+    A point projects to pixels by p_cam = T_cam_world @ p_world, (u, v) = focal * p_cam[:2] / p_cam[2] + principal.
+    """
+
+    T_cam_world: Any  # [4, 4] world to camera
+    focal: Any  # [2] pixels
+    principal: Any  # [2] pixels, (width / 2, height / 2) for a centred camera
+    width: int = dataclasses.field(metadata={"static": True})
+    height: int = dataclasses.field(metadata={"static": True})
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Mesh:
+    """A labelled triangle mesh on the host; normals (right-hand rule) point from the solid into free air."""
+
+    vertices: np.ndarray  # [v, 3] float64, metres
+    faces: np.ndarray  # [f, 3] int32
+    face_room: np.ndarray  # [f] int32, index into FloorPlan.rooms, OUTSIDE for none
+    face_kind: np.ndarray  # [f] int32, SurfaceKind
+    face_object: np.ndarray  # [f] int32, index into the scene's objects, OUTSIDE for structure
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class GBuffer:
+    """What a camera sees of a mesh, on the host. Where nothing is hit: depth 0, normal 0, face -1, hit False."""
+
+    depth: np.ndarray  # [h, w] float32 z-depth, metres
+    normal: np.ndarray  # [h, w, 3] float32 unit geometric normal in world axes, as the mesh winds it
+    face: np.ndarray  # [h, w] int32
+    barycentric: np.ndarray  # [h, w, 2] float32 (u, v): p = (1 - u - v) v0 + u v1 + v v2
+    hit: np.ndarray  # [h, w] bool
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Gaussians:
+    """Anisotropic 3D gaussians on the device. Opacity is sigmoid(opacity_logits); k = (degree + 1)^2 SH coefficients."""
+
+    means: Any  # [n, 3] metres, world
+    quats: Any  # [n, 4] wxyz, need not be unit
+    log_scales: Any  # [n, 3] log metres (standard deviations along the local axes)
+    opacity_logits: Any  # [n]
+    sh: Any  # [n, k, 3]; colour = 0.5 + sum_k sh_k Y_k(direction), sRGB-encoded
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Render:
+    """What a camera sees of gaussians, on the device."""
+
+    rgb: Any  # [h, w, 3] background included
+    depth: Any  # [h, w] expected z-depth normalised by alpha, metres; 0 where alpha is 0
+    alpha: Any  # [h, w] 1 - transmittance
+
+
+@dataclasses.dataclass(frozen=True)
+class View:
+    """A planned camera and why it stands there."""
+
+    camera: Camera  # NumPy float64 leaves
+    room: int  # index into FloorPlan.rooms: the room it looks at
+    kind: str  # bootstrap | perimeter | overhead | doorway | heldout
+    name: str  # unique in the scene, "<room id>/<kind><k>"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SceneObject:
+    """One separate thing in a room, as a closed or open triangle mesh in world space, on the host."""
+
+    label: str  # what a person would call it: "armchair", "floor lamp"
+    room: int  # index into FloorPlan.rooms
+    support: str  # floor | flat | wall | ceiling | object (stacked on another)
+    vertices: np.ndarray  # [v, 3] float64, world metres
+    faces: np.ndarray  # [f, 3] int32, outward winding
+    face_slot: np.ndarray  # [f] int32, index into slots
+    slots: tuple[str, ...]  # material names: "dark_wood", "velvet", "brass" ...
+    slot_colors: np.ndarray  # [s, 3] float32 base colour of each slot, sRGB in [0, 1]
+    T_world_object: np.ndarray  # [4, 4] float64: object frame (x right, y back, z up, origin at the foot's centre) to world
+    size: np.ndarray  # [3] float64 extent along the object's own axes, metres
+    emission: np.ndarray  # [s] float32: how strongly each slot glows (0 for none)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Atlas:
+    """Texels over the planar surfaces of a scaffold, on the host: the accumulated wall texture (paper, "Scaffold Mesh Texturing").
+
+    A chart is a planar surface of one room and one kind; its texels lie on a regular grid, row-major from `chart_start`.
+    """
+
+    texel_size: float  # metres
+    chart_origin: np.ndarray  # [c, 3] float64: world corner of texel (0, 0)
+    chart_u: np.ndarray  # [c, 3] float64 unit axis along columns
+    chart_v: np.ndarray  # [c, 3] float64 unit axis along rows
+    chart_normal: np.ndarray  # [c, 3] float64 into free air
+    chart_shape: np.ndarray  # [c, 2] int32 rows, columns
+    chart_start: np.ndarray  # [c] int64: index of its first texel
+    chart_room: np.ndarray  # [c] int32
+    chart_kind: np.ndarray  # [c] int32 SurfaceKind
+    face_chart: np.ndarray  # [f] int32 chart of each face of the mesh it was built from, -1 for none
+    inside: np.ndarray  # [t] bool: the texel's centre lies on the surface (not in a hole or off its edge)
+    color: np.ndarray  # [t, 3] float32 weighted mean so far
+    weight: np.ndarray  # [t] float32 total weight so far
