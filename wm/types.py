@@ -115,7 +115,7 @@ class SceneObject:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Atlas:
-    """Texels over the planar surfaces of a scaffold, on the host: the accumulated wall texture (paper, "Scaffold Mesh Texturing").
+    """Texels over the planar surfaces of a scaffold, on the host: the accumulated wall texture (paper, "Mesh Texturing").
 
     A chart is a planar surface of one room and one kind; its texels lie on a regular grid, row-major from `chart_start`.
     """

@@ -1,0 +1,133 @@
+"""The run folder: atomic, resumable, honest about damage, never shared."""
+
+import errno
+import json
+import multiprocessing
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from wm.artifacts import ArtifactError, digest, open_run_folder, write_atomically
+
+HEADER = {"seed": 0, "config": {"fit": {"steps": 10}}}
+
+
+def test_an_entry_is_reused_only_for_its_own_key(tmp_path):
+    with open_run_folder(tmp_path / "run", HEADER) as folder:
+        assert not folder.has("plan", "k1")
+        folder.save("plan", "k1", {"plan.json": "{}"})
+        assert folder.has("plan", "k1")
+        assert not folder.has("plan", "k2")
+
+
+def test_entries_survive_reopening(tmp_path):
+    with open_run_folder(tmp_path, HEADER) as folder:
+        folder.save("plan", "k1", {"a/b.txt": b"x"})
+    with open_run_folder(tmp_path, HEADER) as folder:
+        assert folder.has("plan", "k1")
+
+
+@pytest.mark.parametrize("damage", ["truncate", "delete", "flip"])
+def test_a_damaged_file_is_noticed_and_said(tmp_path, damage):
+    said = []
+    with open_run_folder(tmp_path, HEADER) as folder:
+        folder.save("view", "k", {"v.png": b"0123456789"})
+    file = tmp_path / "v.png"
+    if damage == "delete":
+        file.unlink()
+    else:
+        file.write_bytes({"truncate": b"01234", "flip": b"0123x56789"}[damage])
+    with open_run_folder(tmp_path, HEADER, say=said.append) as folder:
+        assert not folder.has("view", "k")
+    assert len(said) == 1 and "v.png" in said[0] and "view" in said[0]
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"header": {}, "entries": {"a": 1}}', '{"header": 3, "entries": {}}'])
+def test_a_damaged_manifest_starts_over_with_a_line(tmp_path, text):
+    (tmp_path / "manifest.json").write_text(text)
+    said = []
+    with open_run_folder(tmp_path, HEADER, say=said.append) as folder:
+        assert not folder.has("plan", "k")
+    assert "damaged" in said[0]
+    assert json.loads((tmp_path / "manifest.json").read_text())["header"] == HEADER
+
+
+def test_another_configuration_is_refused_and_named(tmp_path):
+    with open_run_folder(tmp_path, HEADER):
+        pass
+    other = {"seed": 0, "config": {"fit": {"steps": 20}}}
+    with pytest.raises(ArtifactError, match=r"config\.fit\.steps=10 \(this one: 20\)"), open_run_folder(tmp_path, other):
+        pass
+    with open_run_folder(tmp_path, other, overwrite=True) as folder:
+        assert not folder.has("plan", "k")
+
+
+def test_a_folder_with_strangers_files_is_refused(tmp_path):
+    (tmp_path / "thesis.tex").write_text("years of work")
+    with pytest.raises(ArtifactError, match="not empty"), open_run_folder(tmp_path, HEADER):
+        pass
+
+
+def _try_to_open(path, queue):
+    try:
+        with open_run_folder(path, HEADER):
+            queue.put("opened")
+    except ArtifactError as error:
+        queue.put(str(error))
+
+
+def test_two_runs_never_share_a_folder(tmp_path):
+    context = multiprocessing.get_context("spawn")
+    queue = context.Queue()
+    with open_run_folder(tmp_path, HEADER):
+        other = context.Process(target=_try_to_open, args=(tmp_path, queue))
+        other.start()
+        message = queue.get(timeout=60)
+        other.join()
+    assert "in use by another run" in message
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_litter(tmp_path):
+    target = tmp_path / "x.bin"
+    write_atomically(target, b"old")
+
+    def fill_the_disk(file):
+        file.write(b"half")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(OSError, match="No space"):
+        write_atomically(target, fill_the_disk)
+    assert target.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["x.bin"]
+
+
+def test_litter_of_a_killed_run_is_swept(tmp_path):
+    with open_run_folder(tmp_path, HEADER):
+        pass
+    (tmp_path / "views").mkdir()
+    (tmp_path / "views" / ".part-abc.png").write_bytes(b"half")
+    with open_run_folder(tmp_path, HEADER):
+        assert not list(tmp_path.rglob(".part-*"))
+
+
+def test_stale_entries_are_dropped_with_their_files(tmp_path):
+    with open_run_folder(tmp_path, HEADER) as folder:
+        folder.save("paint/a", "k", {"a.png": b"a"})
+        folder.save("paint/b", "k", {"b.png": b"b"})
+        folder.drop_others("paint/", {"paint/b"})
+        assert not (tmp_path / "a.png").exists()
+        assert folder.has("paint/b", "k")
+
+
+@given(st.dictionaries(st.text(max_size=5), st.integers() | st.text(max_size=5), max_size=5))
+def test_digest_depends_on_content_and_not_on_order(values):
+    shuffled = dict(reversed(list(values.items())))
+    assert digest(values) == digest(shuffled)
+    assert digest(values) != digest({**values, "more": 1.5})
+
+
+def test_digest_tells_arrays_apart_by_shape_and_type():
+    flat = np.arange(6, dtype=np.float32)
+    assert len({digest(flat), digest(flat.reshape(2, 3)), digest(flat.astype(np.float64)), digest(flat + 1)}) == 4

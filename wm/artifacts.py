@@ -1,0 +1,205 @@
+"""The run folder: atomic writes, stage keys, the manifest, resume.
+
+An *entry* is one finished piece of work (a stage, or one view or room of a stage). It has a name, a key (a digest of
+everything it was made from: configuration, seed, keys of its inputs) and the digests of its files. An entry is reused only if
+its key is the wanted one and its files still have their digests; a half, missing or damaged file is noticed and said.
+Nothing in the manifest depends on the clock, so equal runs have equal manifests.
+"""
+
+import contextlib
+import dataclasses
+import hashlib
+import json
+import os
+import pathlib
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, BinaryIO
+
+import numpy as np
+
+try:
+    import fcntl
+except ImportError:  # Windows has no flock: there the folder is not locked
+    fcntl = None
+
+MANIFEST = "manifest.json"
+LOCK = ".lock"
+TEMPORARY = ".part-"
+
+Writer = Callable[[BinaryIO], Any]
+
+
+class ArtifactError(RuntimeError):
+    """The run folder cannot be used as asked; the message says why and what would help."""
+
+
+def digest(*parts: Any) -> str:
+    """A stable key of JSON-like values, dataclasses, bytes and arrays (20 hex digits of a SHA-256)."""
+    sha = hashlib.sha256()
+    for part in parts:
+        if isinstance(part, np.ndarray):
+            sha.update(f"{part.dtype.str}{part.shape}".encode())
+            sha.update(np.ascontiguousarray(part).tobytes())
+        elif isinstance(part, bytes):
+            sha.update(part)
+        else:
+            value = dataclasses.asdict(part) if dataclasses.is_dataclass(part) and not isinstance(part, type) else part
+            sha.update(json.dumps(value, sort_keys=True, allow_nan=False).encode())
+        sha.update(b"\x00")
+    return sha.hexdigest()[:20]
+
+
+def write_atomically(path: pathlib.Path, write: Writer | bytes | str) -> None:
+    """Writes a file under a temporary name beside `path`, then renames it: readers see the old file or the new one.
+
+    Args:
+      path: the file; its folder is made.
+      write: the content, or a function that writes it to an open binary file.
+
+    Raises:
+      OSError: the disk is full or the folder is not writable; no partial file remains.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=TEMPORARY, suffix=path.suffix)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            if callable(write):
+                write(file)
+            else:
+                file.write(write.encode() if isinstance(write, str) else write)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(name)
+        raise
+
+
+def file_digest(path: pathlib.Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()[:20]
+
+
+def json_text(value: Any) -> str:
+    """JSON with sorted keys, one way only; NaN is refused."""
+    return json.dumps(value, indent=1, sort_keys=True, allow_nan=False) + "\n"
+
+
+class RunFolder:
+    """One run's folder, held by one process at a time.
+
+    Use `open_run_folder`, which locks it.
+    """
+
+    def __init__(self, path: pathlib.Path, say: Callable[[str], None]):
+        self.path = path
+        self._say = say
+        self._header: dict[str, Any] = {}
+        self._entries: dict[str, dict[str, Any]] = {}
+
+    def has(self, name: str, key: str) -> bool:
+        """Whether entry `name` was made from `key` and its files are whole; a damaged one is forgotten, with a line."""
+        entry = self._entries.get(name)
+        if entry is None or entry["key"] != key:
+            return False
+        for relative, expected in entry["files"].items():
+            file = self.path / relative
+            if not file.is_file() or file_digest(file) != expected:
+                self._say(f"{file}: {'damaged' if file.is_file() else 'missing'}; making {name} again")
+                del self._entries[name]
+                return False
+        return True
+
+    def save(self, name: str, key: str, files: Mapping[str, Writer | bytes | str]) -> None:
+        """Writes the files of an entry, each atomically, and then records it."""
+        for relative, write in files.items():
+            write_atomically(self.path / relative, write)
+        self.record(name, key, list(files))
+
+    def record(self, name: str, key: str, relatives: list[str]) -> None:
+        """Records an entry whose files are already in place."""
+        digests = {relative: file_digest(self.path / relative) for relative in sorted(relatives)}
+        self._entries[name] = {"key": key, "files": digests}
+        self._write_manifest()
+
+    def drop_others(self, prefix: str, keep: set[str]) -> None:
+        """Forgets the entries under `prefix` that are not in `keep`, and removes their files."""
+        stale = [name for name in self._entries if name.startswith(prefix) and name not in keep]
+        held = {file for name, entry in self._entries.items() if name not in stale for file in entry["files"]}
+        for name in stale:
+            for relative in self._entries.pop(name)["files"]:
+                if relative not in held:
+                    (self.path / relative).unlink(missing_ok=True)
+        if stale:
+            self._write_manifest()
+
+    def open(self, header: dict[str, Any], *, overwrite: bool) -> None:
+        """Reads the manifest; the folder must be new, or made by the same configuration, unless `overwrite`."""
+        manifest = self.path / MANIFEST
+        for left in self.path.rglob(TEMPORARY + "*"):
+            left.unlink(missing_ok=True)
+        if manifest.exists():
+            try:
+                found = json.loads(manifest.read_text())
+                old, entries = found["header"], found["entries"]
+                known = all(isinstance(e["key"], str) and isinstance(e["files"], dict) for e in entries.values())
+                if not known or not isinstance(old, dict):
+                    raise ValueError("not a manifest")
+            except (ValueError, KeyError, TypeError, AttributeError):
+                self._say(f"{manifest}: damaged; making everything again")
+            else:
+                changed = _differences(old, header)
+                if changed and not overwrite:
+                    raise ArtifactError(
+                        f"{self.path} holds a run with {'; '.join(changed[:4])}{' ...' if len(changed) > 4 else ''}. "
+                        "Choose another folder (output=...), or pass overwrite=true to remake what differs"
+                    )
+                self._entries = entries
+        elif any(child.name not in (LOCK, ".hydra") for child in self.path.iterdir()) and not overwrite:
+            raise ArtifactError(f"{self.path} is not empty and holds no run; choose another folder (output=...)")
+        self._header = header
+        self._write_manifest()
+
+    def _write_manifest(self) -> None:
+        write_atomically(self.path / MANIFEST, json_text({"header": self._header, "entries": self._entries}))
+
+
+@contextlib.contextmanager
+def open_run_folder(
+    path: pathlib.Path, header: dict[str, Any], *, overwrite: bool = False, say: Callable[[str], None] = print
+) -> Iterator[RunFolder]:
+    """The run folder at `path`, made if needed and locked until the block ends (also if the process is killed).
+
+    Args:
+      path: the folder.
+      header: what identifies the run (configuration, seed, versions): JSON-like.
+      overwrite: accept a folder that another configuration made; entries whose keys still fit are reused.
+      say: called with one line when something is found damaged.
+
+    Raises:
+      ArtifactError: another process uses the folder, or it holds another configuration's run.
+      OSError: the folder cannot be made or written.
+    """
+    path.mkdir(parents=True, exist_ok=True)
+    with (path / LOCK).open("a+b") as lock:
+        if fcntl is not None:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise ArtifactError(
+                    f"{path} is in use by another run; wait for it, or choose another folder (output=...)"
+                ) from None
+        folder = RunFolder(path, say)
+        folder.open(header, overwrite=overwrite)
+        yield folder
+
+
+def _differences(old: Any, new: Any, prefix: str = "") -> list[str]:
+    """"key=old (now new)" for every leaf that differs."""
+    if isinstance(old, dict) and isinstance(new, dict):
+        keys = sorted(old.keys() | new.keys())
+        return [line for key in keys for line in _differences(old.get(key), new.get(key), f"{prefix}.{key}" if prefix else key)]
+    return [] if old == new else [f"{prefix}={old} (this one: {new})"]
