@@ -1,0 +1,130 @@
+"""How records become the bytes of files, and back: PNG, 16-bit depth, furniture, gaussians, camera lists.
+
+Every encoder is deterministic: equal records give equal bytes.
+"""
+
+import io
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float, UInt8
+from PIL import Image
+
+from wm.types import Camera, SceneObject, View
+
+DEPTH_UNIT = 1e-3
+"""Metres per step of a 16-bit depth PNG, nerfstudio's `depth_unit_scale_factor`."""
+
+# nerfstudio's cameras look along -z with y up; ours along +z with y down.
+_OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
+
+
+def encode_png(rgb: UInt8[np.ndarray, "h w 3"]) -> bytes:
+    buffer = io.BytesIO()
+    Image.fromarray(rgb).save(buffer, format="PNG", compress_level=4)
+    return buffer.getvalue()
+
+
+def decode_png(data: bytes) -> UInt8[np.ndarray, "h w 3"]:
+    with Image.open(io.BytesIO(data)) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:
+    """A 16-bit PNG of z-depth in steps of DEPTH_UNIT; 0 stays 0, what lies beyond 65.5 m is clipped."""
+    steps = np.clip(np.round(depth / DEPTH_UNIT), 0, np.iinfo(np.uint16).max).astype(np.uint16)
+    buffer = io.BytesIO()
+    Image.fromarray(steps).save(buffer, format="PNG", compress_level=4)
+    return buffer.getvalue()
+
+
+def decode_depth(data: bytes) -> Float[np.ndarray, "h w"]:
+    with Image.open(io.BytesIO(data)) as image:
+        return (np.asarray(image).astype(np.float64) * DEPTH_UNIT).astype(np.float32)
+
+
+def encode_arrays(arrays: Mapping[str, np.ndarray]) -> bytes:
+    """An uncompressed .npz with its names in order."""
+    buffer = io.BytesIO()
+    np.savez(buffer, allow_pickle=False, **{name: arrays[name] for name in sorted(arrays)})
+    return buffer.getvalue()
+
+
+def decode_arrays(data: bytes) -> dict[str, np.ndarray]:
+    with np.load(io.BytesIO(data), allow_pickle=False) as file:
+        return {name: file[name] for name in file.files}
+
+
+_OBJECT_ARRAYS = ("vertices", "faces", "face_slot", "slot_colors", "T_world_object", "size", "emission")
+
+
+def encode_objects(objects: Sequence[SceneObject]) -> bytes:
+    """The furniture as an .npz: arrays by object, and a table of labels, rooms, supports and slots."""
+    table = [{"label": o.label, "room": o.room, "support": o.support, "slots": list(o.slots)} for o in objects]
+    arrays = {f"{k:05d}.{name}": getattr(o, name) for k, o in enumerate(objects) for name in _OBJECT_ARRAYS}
+    return encode_arrays({**arrays, "table": np.frombuffer(json.dumps(table).encode(), np.uint8)})
+
+
+def decode_objects(data: bytes) -> tuple[SceneObject, ...]:
+    arrays = decode_arrays(data)
+    table = json.loads(arrays["table"].tobytes())
+    return tuple(
+        SceneObject(
+            **{**row, "slots": tuple(row["slots"])},
+            **{name: arrays[f"{k:05d}.{name}"] for name in _OBJECT_ARRAYS},
+        )
+        for k, row in enumerate(table)
+    )
+
+
+def object_summary(objects: Sequence[SceneObject], rooms: Sequence[str]) -> list[dict[str, Any]]:
+    """Labels and oriented boxes, for `objects.json`."""
+    return [
+        {
+            "label": o.label,
+            "room": rooms[o.room],
+            "support": o.support,
+            "size": [round(float(x), 4) for x in o.size],
+            "T_world_object": np.round(o.T_world_object, 6).tolist(),
+        }
+        for o in objects
+    ]
+
+
+def camera_frame(view: View, room: str) -> dict[str, Any]:
+    """One frame of nerfstudio's transforms.json, with its own intrinsics and our room, kind and name."""
+    camera = view.camera
+    T_world_cam = np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _OPENGL_FROM_OPENCV
+    return {
+        "file_path": f"views/{view.name}.png",
+        "depth_file_path": f"views/{view.name}.depth.png",
+        "transform_matrix": np.round(T_world_cam, 9).tolist(),
+        **_intrinsics(camera),
+        "room": room,
+        "kind": view.kind,
+        "name": view.name,
+    }
+
+
+def transforms_json(views: Sequence[View], rooms: Sequence[str], ply: str) -> dict[str, Any]:
+    """nerfstudio's transforms.json of all views: opens in any tool that reads that format."""
+    return {
+        "camera_model": "OPENCV",
+        "depth_unit_scale_factor": DEPTH_UNIT,
+        "ply_file_path": ply,
+        "frames": [camera_frame(view, rooms[view.room]) for view in views],
+    }
+
+
+def _intrinsics(camera: Camera) -> dict[str, Any]:
+    focal, principal = np.asarray(camera.focal, float), np.asarray(camera.principal, float)
+    return {
+        "fl_x": float(focal[0]),
+        "fl_y": float(focal[1]),
+        "cx": float(principal[0]),
+        "cy": float(principal[1]),
+        "w": camera.width,
+        "h": camera.height,
+    }

@@ -1,0 +1,139 @@
+"""`report.html`: one self-contained page that shows what a run made and how good it is."""
+
+import base64
+import dataclasses
+import html
+import importlib.resources
+import string
+from collections.abc import Sequence
+
+import numpy as np
+
+from wm.geometry import FloorPlan
+from wm.report.floorplan import camera_legend, draw_floorplan
+from wm.report.paper import paper_figure
+from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image
+from wm.report.plots import plot_error_against_time, plot_stages
+from wm.types import SceneObject, View
+
+THUMBNAIL = 400
+HERO = 860
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SheetRow:
+    """One view in the contact sheet."""
+
+    name: str
+    note: str  # recall and attempts, say
+    condition: np.ndarray | None  # [h, w, 3]
+    generated: np.ndarray  # [h, w, 3]
+    splats: np.ndarray  # [h, w, 3]
+    splat_depth: np.ndarray  # [h, w] metres
+    scaffold_depth: np.ndarray  # [h, w] metres, 0 where nothing is hit
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ReportData:
+    """Everything the page shows."""
+
+    scene: str
+    theme: str
+    variant: str
+    preset: str
+    seed: int
+    plan: FloorPlan
+    objects: Sequence[SceneObject]
+    views: Sequence[View]
+    sheets: dict[str, list[SheetRow]]  # room name -> rows
+    heroes: dict[str, np.ndarray]  # room name -> a held-out render [h, w, 3]
+    metrics: dict[str, float | int | None]
+    timings: dict[str, dict[str, float]]
+    history: Sequence[dict]
+    video: bytes | None
+    notes: Sequence[str] = ()
+
+
+_ROWS = [
+    ("psnr", "PSNR", "{:.2f} dB", "held-out views against the world", "up"),
+    ("ssim", "SSIM", "{:.4f}", "", "up"),
+    ("m_mae", "M-MAE", "{:.4f} m", "splat depth against the scaffold", "down"),
+    ("m_rmse", "M-RMSE", "{:.4f} m", "", "down"),
+    ("n_cos", "N-Cos", "{:.4f}", "splat normals against the scaffold", "up"),
+    ("n_ang_deg", "N-Ang", "{:.2f}°", "", "down"),
+    ("reproj_mae_norm", "Reproj. MAE-norm", "{:.4f}", "depth of one view moved into another", "down"),
+    ("reproj_absrel", "Reproj. AbsRel", "{:.4f}", "", "down"),
+    ("navigability", "Navigability", "{:.1%}", "largest connected share of free floor", "up"),
+    ("navigability_body", "Navigability, 0.25 m body", "{:.1%}", "", "up"),
+    ("coverage_1", "Surface seen once", "{:.1%}", "share of reachable surface", "up"),
+    ("coverage_3", "Surface seen three times", "{:.1%}", "", "up"),
+    ("yield", "Yield", "{:.1%}", "planned views that were accepted", "up"),
+    ("atm", "Attempts a view", "{:.2f}", "", "down"),
+    ("rooms", "Rooms", "{}", "", ""),
+    ("views", "Views", "{}", "", ""),
+    ("gaussians", "Gaussians", "{:,}", "", ""),
+    ("seconds", "Time", "{:.0f} s", "this machine, all stages", "down"),
+    ("peak_gib", "Peak memory", "{:.2f} GiB", "", "down"),
+]
+
+
+def render_page(data: ReportData) -> str:
+    """The whole page as HTML text; it loads nothing from anywhere."""
+    pick = {
+        "title": html.escape(data.scene.replace("_", " ")),
+        "theme": html.escape(data.theme),
+        "facts": html.escape(f"variant {data.variant} · preset {data.preset} · seed {data.seed}"),
+        "video": _video(data.video),
+        "heroes": "".join(_hero(name, image) for name, image in data.heroes.items()),
+        "plan": draw_floorplan(data.plan, data.objects, data.views),
+        "legend": camera_legend(),
+        "metrics": "".join(_metric_row(data, *row) for row in _ROWS),
+        "curve": plot_error_against_time(data.history) or "<p>No held-out evaluation was asked for.</p>",
+        "stages": plot_stages(data.timings),
+        "sheets": "".join(_sheet(name, rows) for name, rows in data.sheets.items()),
+        "notes": "".join(f"<p class='note'>{html.escape(note)}</p>" for note in data.notes),
+        "range": f"{DEPTH_ERROR_RANGE * 100:.0f}",
+    }
+    template = importlib.resources.files("wm.report").joinpath("template.html").read_text()
+    return string.Template(template).substitute(pick)
+
+
+def _video(video: bytes | None) -> str:
+    if not video:
+        return ""
+    uri = "data:video/mp4;base64," + base64.b64encode(video).decode()
+    return f'<video controls muted loop autoplay playsinline src="{uri}"></video>'
+
+
+def _hero(name: str, image: np.ndarray) -> str:
+    picture = f'<img loading="lazy" src="{data_uri(image, max_width=HERO)}">'
+    return f"<figure>{picture}<figcaption>{html.escape(name)}</figcaption></figure>"
+
+
+def _metric_row(data: ReportData, key: str, label: str, form: str, meaning: str, better: str) -> str:
+    value = data.metrics.get(key)
+    theirs = paper_figure(data.variant, key)
+    arrow = {"up": " ↑", "down": " ↓"}.get(better, "")
+    cells = [
+        f"<td>{label}{arrow}<small>{meaning}</small></td>",
+        f"<td class='n'>{'–' if value is None else form.format(value)}</td>",
+        f"<td class='n'>{'–' if theirs is None else form.format(theirs)}</td>",
+    ]
+    return f"<tr>{''.join(cells)}</tr>"
+
+
+def _sheet(name: str, rows: list[SheetRow]) -> str:
+    def cell(image: np.ndarray | None) -> str:
+        return "<td></td>" if image is None else f'<td><img loading="lazy" src="{data_uri(image, max_width=THUMBNAIL)}"></td>'
+
+    body = "".join(
+        "<tr>"
+        + cell(row.condition)
+        + cell(row.generated)
+        + cell(row.splats)
+        + cell(depth_error_image(row.splat_depth, row.scaffold_depth))
+        + f"</tr><tr class='cap'><td colspan='4'>{html.escape(row.name)} · {html.escape(row.note)}</td></tr>"
+        for row in rows
+    )
+    head = "<tr><th>condition</th><th>generated</th><th>splat render</th><th>depth error</th></tr>"
+    return f"<h3>{html.escape(name)}</h3><table class='sheet'>{head}{body}</table>"

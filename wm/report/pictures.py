@@ -1,0 +1,34 @@
+"""Pictures for the report: data URIs of thumbnails, and depth error as colour."""
+
+import base64
+import io
+
+import matplotlib
+import numpy as np
+from jaxtyping import Float, Num, UInt8
+from PIL import Image
+
+DEPTH_ERROR_RANGE = 0.10
+"""Metres at which the colour of a depth error saturates."""
+
+
+def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
+    """An image in [0, 1] as 8 bits, rounded."""
+    return rgb if rgb.dtype == np.uint8 else (np.clip(rgb, 0, 1) * 255 + 0.5).astype(np.uint8)
+
+
+def depth_error_image(ours: Float[np.ndarray, "h w"], scaffold: Float[np.ndarray, "h w"]) -> UInt8[np.ndarray, "h w 3"]:
+    """|ours - scaffold| from dark (0) to bright (DEPTH_ERROR_RANGE or more); grey where the scaffold is not hit."""
+    error = np.clip(np.abs(ours - scaffold) / DEPTH_ERROR_RANGE, 0, 1)
+    colours = matplotlib.colormaps["inferno"](error)[..., :3]
+    return to_bytes(np.where((scaffold > 0)[..., None], colours, 0.5))
+
+
+def data_uri(rgb: Num[np.ndarray, "h w 3"], *, max_width: int, quality: int = 82) -> str:
+    """A JPEG of at most `max_width` pixels as a data URI."""
+    image = Image.fromarray(to_bytes(rgb))
+    if image.width > max_width:
+        image = image.resize((max_width, round(image.height * max_width / image.width)), Image.Resampling.LANCZOS)
+    buffer = io.BytesIO()
+    image.save(buffer, format="JPEG", quality=quality)
+    return "data:image/jpeg;base64," + base64.b64encode(buffer.getvalue()).decode()
