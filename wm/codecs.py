@@ -48,7 +48,7 @@ def decode_depth(data: bytes) -> Float[np.ndarray, "h w"]:
 def encode_arrays(arrays: Mapping[str, np.ndarray]) -> bytes:
     """An uncompressed .npz with its names in order."""
     buffer = io.BytesIO()
-    np.savez(buffer, allow_pickle=False, **{name: arrays[name] for name in sorted(arrays)})
+    np.savez(buffer, **{name: arrays[name] for name in sorted(arrays)})
     return buffer.getvalue()
 
 
