@@ -1,0 +1,65 @@
+"""Which faces of a scaffold lie on one planar surface: the charts of the texture atlas.
+
+A chart is a connected set of structure faces that share room, kind and plane. Faces of one plane that do not touch (the heads
+of several doors, a wall that a passage cuts in two) are separate charts, so that charts are not mostly empty.
+"""
+
+import numpy as np
+from jaxtyping import Int
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
+
+from wm.types import OUTSIDE, Mesh, SurfaceKind
+
+ANGLE_TOLERANCE = 1e-3  # radians between normals of one plane
+OFFSET_TOLERANCE = 1e-3  # metres between offsets of one plane
+WELD = 1e-6  # metres: corners closer than this are one corner
+
+
+def planar_charts(mesh: Mesh) -> Int[np.ndarray, "f"]:
+    """The chart of every face, numbered in order of first face; -1 for objects, the outer skin and faces of no area."""
+    chart = np.full(len(mesh.faces), -1, np.int32)
+    corners = mesh.vertices[mesh.faces]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    doubled_area = np.linalg.norm(cross, axis=1)
+    structure = (mesh.face_object == OUTSIDE) & (mesh.face_kind != SurfaceKind.OBJECT) & (mesh.face_kind != SurfaceKind.EXTERIOR)
+    faces = np.flatnonzero(structure & (doubled_area > 0))
+    if len(faces) == 0:
+        return chart
+    normal = cross[faces] / doubled_area[faces, None]
+    plane = _planes(mesh, faces, normal)
+    label = _islands(mesh, faces, plane)
+    _, first, inverse = np.unique(label, return_index=True, return_inverse=True)
+    rank = np.empty(len(first), np.int32)
+    rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
+    chart[faces] = rank[inverse]
+    return chart
+
+
+def _planes(mesh: Mesh, faces: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """A label per face, equal where room and kind are equal and the planes agree within the tolerances."""
+    centre = mesh.vertices[mesh.faces[faces]].mean(axis=1)
+    offset = np.einsum("fi,fi->f", centre - mesh.vertices.mean(axis=0), normal)
+    # In units of the tolerances: labels 4 apart are never within radius 1.
+    key = np.column_stack(
+        [4.0 * mesh.face_room[faces], 4.0 * mesh.face_kind[faces], normal / ANGLE_TOLERANCE, offset / OFFSET_TOLERANCE]
+    )
+    # Faces of one plane agree to rounding: joined here, so that the neighbour search sees planes and not faces.
+    distinct, inverse = np.unique(np.round(key, 3), axis=0, return_inverse=True)
+    pairs = KDTree(distinct).query_pairs(1.0, output_type="ndarray")
+    graph = coo_array((np.ones(len(pairs), bool), (pairs[:, 0], pairs[:, 1])), shape=(len(distinct), len(distinct)))
+    return connected_components(graph, directed=False)[1][inverse.ravel()]
+
+
+def _islands(mesh: Mesh, faces: np.ndarray, plane: np.ndarray) -> np.ndarray:
+    """A label per face, equal where faces of one plane hang together by shared corners (by position, not by index)."""
+    used, vertex = np.unique(mesh.faces[faces], return_inverse=True)
+    _, corner = np.unique(np.round(mesh.vertices[used] / WELD).astype(np.int64), axis=0, return_inverse=True)
+    corner = corner.ravel()[vertex.reshape(-1, 3)].astype(np.int64)
+    _, node = np.unique(plane[:, None].astype(np.int64) * len(used) + corner, return_inverse=True)
+    nodes = int(node.max()) + 1
+    face = np.repeat(np.arange(len(faces)), 3)
+    size = len(faces) + nodes
+    graph = coo_array((np.ones(3 * len(faces), bool), (face, len(faces) + node.ravel())), shape=(size, size))
+    return connected_components(graph, directed=False)[1][: len(faces)]
