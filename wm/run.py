@@ -1,0 +1,198 @@
+"""The Hydra door: compose conf/, freeze it to dataclasses, check the values, run the pipeline.
+
+    python -m wm.run +scene=gothic
+    python -m wm.run -m +scene=gothic variant=full,depth_only
+
+Errors are one line on stderr (tracebacks with debug=true) and an exit code: 2 for input that cannot be run, 1 for a run that
+failed, 130 after Ctrl-C. The only module that imports hydra.
+"""
+
+import difflib
+import errno
+import importlib
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import hydra
+from hydra.core.config_store import ConfigStore
+from hydra.core.hydra_config import HydraConfig
+from hydra.errors import HydraException, MissingConfigException, OverrideParseException
+from hydra.types import RunMode
+from omegaconf import DictConfig, OmegaConf
+from omegaconf.errors import InterpolationToMissingValueError, MissingMandatoryValue, OmegaConfBaseException
+
+from wm.schema import RunConfig
+from wm.validate import ConfigError, validate_config
+
+FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+
+_PACKAGE = Path(__file__).resolve().parent
+CONF = next(folder for folder in (_PACKAGE.parent / "conf", _PACKAGE / "conf") if (folder / "config.yaml").is_file())
+"""The configuration tree: beside the package in a checkout, inside it in a wheel."""
+
+
+def main() -> None:
+    """The command line. Exits with 0, FAILED, BAD_INPUT or INTERRUPTED."""
+    os.environ["HYDRA_FULL_ERROR"] = "1"  # Hydra then raises to here instead of printing its own report
+    debug = "debug=true" in (argument.lower() for argument in sys.argv)
+    try:
+        _composed_by_hydra()
+    except KeyboardInterrupt:
+        _say("interrupted; the same command resumes")
+        sys.exit(INTERRUPTED)
+    except Exception as error:
+        if debug:
+            raise
+        if not getattr(error, "was_said", False):
+            _say(explain(error))
+        sys.exit(_exit_code(error))
+
+
+def freeze(composed: DictConfig) -> RunConfig:
+    """The composed tree as checked dataclasses.
+
+    Raises:
+      ConfigError: a key that the schema does not know, a value of a wrong kind or out of range, no scene.
+    """
+    from wm.synth.backends import CHOICES  # here: `--help` needs none of it
+
+    if OmegaConf.is_missing(composed.scene, "name"):
+        raise ConfigError(_no_scene())
+    for key in _unknown_keys(composed, RunConfig, ""):
+        raise ConfigError(_unknown_key(key))
+    config = OmegaConf.to_object(composed)
+    assert isinstance(config, RunConfig)
+    validate_config(config, backends=CHOICES)
+    return config
+
+
+def load_config(overrides: Sequence[str] = ()) -> RunConfig:
+    """What `python -m wm.run` would run with these arguments, e.g. `load_config(["+scene=gothic", "seed=3"])`.
+
+    Raises:
+      ConfigError: the arguments do not compose, or their values cannot be run.
+    """
+    with hydra.initialize_config_dir(str(CONF), version_base="1.3"):
+        try:
+            composed = hydra.compose("config", list(overrides))
+        except (HydraException, OmegaConfBaseException) as error:
+            raise ConfigError(explain(error)) from error
+    return freeze(composed)
+
+
+def explain(error: BaseException) -> str:
+    """One line that names what is wrong, where, and what would be right."""
+    cause = error.__cause__
+    key = getattr(cause, "full_key", None)
+    if isinstance(error, MissingConfigException) and error.missing_cfg_file:
+        group, _, option = str(error.missing_cfg_file).rpartition("/")
+        return f"{group}={option}: no such {group}; choose one of {', '.join(error.options or ())}"
+    if isinstance(error, OverrideParseException):
+        return f"cannot read the argument {error.override!r}: {_one_line(str(error).splitlines()[0])}"
+    if isinstance(error, InterpolationToMissingValueError | MissingMandatoryValue):
+        return _no_scene()
+    if isinstance(error, HydraException) and str(error).startswith("Could not override 'scene'"):
+        return f"a scene is added, not replaced: write +scene=NAME, one of {', '.join(options('scene'))}"
+    if key is not None and str(cause).startswith(f"Key '{getattr(cause, 'key', None)}' not in"):
+        return _unknown_key(str(key))
+    if key is not None:
+        return f"{key}: {_one_line(str(cause).splitlines()[0])}"
+    if isinstance(error, OSError):
+        return _explain_os_error(error)
+    return _one_line(str(error)) or type(error).__name__
+
+
+def options(group: str) -> tuple[str, ...]:
+    """The names a configuration group offers, e.g. `options("scene")`."""
+    return tuple(sorted(path.stem for path in (CONF / group).glob("*.yaml")))
+
+
+def _run_one(composed: DictConfig) -> None:
+    config: RunConfig | None = None
+    folder = Path(HydraConfig.get().runtime.output_dir)
+    try:
+        config = freeze(composed)
+        importlib.import_module("wm.pipeline").run(config, folder)
+    except Exception as error:
+        if HydraConfig.get().mode == RunMode.MULTIRUN and not composed.debug:
+            _say(f"{folder}: {explain(error)}")  # the others of the sweep go on; Hydra reports only the first failure
+            error.was_said = True  # type: ignore[attr-defined]
+            raise
+        if composed.debug:
+            raise
+        _say(explain(error))
+        sys.exit(_exit_code(error))
+
+
+def _explain_os_error(error: OSError) -> str:
+    where = f"{error.filename}: " if error.filename else ""
+    if error.errno == errno.ENOSPC:
+        return f"{where}the disk is full; what is finished is kept, and the same command resumes once there is room"
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return f"{where}no permission to write or read here; output=FOLDER names another run folder"
+    if error.errno in (errno.EEXIST, errno.ENOTDIR):
+        return f"{where}a file stands where a folder is needed; output=FOLDER names another run folder"
+    return f"{where}{_one_line(error.strerror or str(error))}"
+
+
+def _exit_code(error: BaseException) -> int:
+    bad_input = isinstance(error, ConfigError | HydraException | OmegaConfBaseException) or type(error).__name__ == "PlanError"
+    return BAD_INPUT if bad_input else FAILED  # PlanError by name: a failed `--help` need not import geometry
+
+
+def _unknown_keys(node: DictConfig, record: type, prefix: str) -> Iterator[str]:
+    known = {field.name: field for field in fields(record)}
+    for name in node:
+        if name not in known:
+            yield f"{prefix}{name}"
+        elif isinstance(known[name].default_factory, type) and is_dataclass(known[name].default_factory):
+            yield from _unknown_keys(node[name], known[name].default_factory, f"{prefix}{name}.")
+
+
+def _unknown_key(key: str) -> str:
+    record, prefix, name = RunConfig, "", key
+    for part in key.split(".")[:-1]:
+        inner = next((field.default_factory for field in fields(record) if field.name == part), None)
+        if not (isinstance(inner, type) and is_dataclass(inner)):
+            name = part
+            break
+        record, prefix, name = inner, f"{prefix}{part}.", key.rpartition(".")[2]
+    names = [field.name for field in fields(record)]
+    near = difflib.get_close_matches(name, names, n=1)
+    guess = f"did you mean {prefix}{near[0]}? " if near else ""
+    return f"{key}: no such key; {guess}{prefix.rstrip('.') or 'the configuration'} has {', '.join(names)}"
+
+
+def _no_scene() -> str:
+    return f"no scene: add +scene=NAME, one of {', '.join(options('scene'))}; or give scene.name, scene.theme and scene.rooms"
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
+
+
+def _say(line: str) -> None:
+    print(f"wm: {line}", file=sys.stderr, flush=True)
+
+
+def _folder(output: str | None, default: str) -> str:
+    return default if output is None else os.path.abspath(output)
+
+
+def _schema() -> Any:
+    schema = OmegaConf.structured(RunConfig)
+    schema.scene.name = "???"  # there is no default scene: a run says what it wants
+    return schema
+
+
+OmegaConf.register_new_resolver("wm.folder", _folder, replace=True)
+ConfigStore.instance().store(name="run_config", node=_schema())
+_composed_by_hydra = hydra.main(config_path=str(CONF), config_name="config", version_base="1.3")(_run_one)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,131 @@
+"""Which values a configuration may hold: every choice and every range of wm.schema, checked at once.
+
+Hydra checks names and types; this checks what they mean, for callers from Python too. Standard library and schema only.
+"""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from wm.schema import RunConfig
+
+CHOICES: Mapping[str, tuple[str, ...]] = {
+    "condition.objects": ("textured", "boxes", "none"),
+    "fit.init": ("flat", "isotropic", "random"),
+}
+
+# key: (lowest, highest), both allowed. Counts that index arrays have a ceiling that catches a slip of the keyboard.
+RANGES: Mapping[str, tuple[float, float]] = {
+    "plan.max_iterations": (1, 1000),
+    "cameras.width": (16, 16384),
+    "cameras.height": (16, 16384),
+    "cameras.fov": (5, 150),
+    "cameras.eye_height": (0.2, 5),
+    "cameras.perimeter": (0, 1000),
+    "cameras.overhead": (0, 1000),
+    "cameras.wall_offset": (0.05, 5),
+    "cameras.prune_angle": (0, 180),
+    "cameras.clearance": (0, 2),
+    "cameras.heldout_per_room": (0, 1000),
+    "furnish.density": (0, 1),
+    "texture.texel_size": (0.001, 1),
+    "texture.min_facing": (0, 1),
+    "texture.occlusion_tolerance": (0, 1),
+    "texture.opaque_weight": (1e-6, 1e6),
+    "verify.low": (0, 1),
+    "verify.high": (0, 1),
+    "verify.dilation": (0, 1000),
+    "verify.min_recall": (0, 1),
+    "verify.max_attempts": (1, 1000),
+    "raster.blur": (0, 100),
+    "raster.alpha_min": (0, 1),
+    "raster.alpha_max": (0, 1),
+    "raster.transmittance_min": (0, 1),
+    "raster.near": (1e-6, 10),
+    "raster.frustum_margin": (1, 10),
+    "raster.tile": (1, 64),
+    "raster.chunk": (1, 1024),
+    "raster.block": (1, 4096),
+    "fit.spacing": (0.001, 1),
+    "fit.opacity": (0.001, 0.999),
+    "fit.steps": (0, 10_000_000),
+    "fit.rounds": (1, 1000),
+    "fit.ssim_weight": (0, 1),
+    "fit.depth_weight": (0, 1000),
+    "fit.lr_means": (0, 10),
+    "fit.lr_quats": (0, 10),
+    "fit.lr_scales": (0, 10),
+    "fit.lr_opacities": (0, 10),
+    "fit.lr_sh": (0, 10),
+    "fit.lr_final": (0, 1),
+    "fit.sh_degree": (0, 3),
+    "fit.curve_points": (0, 1000),
+    "navigation.cell": (0.01, 1),
+    "navigation.body_radius": (0, 2),
+    "navigation.obstacle_height": (0, 10),
+    "evaluate.min_overlap": (0, 1),
+    "report.fps": (1, 240),
+    "report.walking_speed": (0.05, 50),
+    "image.drift": (0, 1),
+    "image.supersampling": (1, 16),
+    "depth.noise": (0, 10),
+    "depth.softness": (0, 100),
+    "seed": (0, 2**63 - 1),
+}
+
+
+class ConfigError(ValueError):
+    """A configuration that cannot be run; the message names key, value and what would be right."""
+
+
+def validate_config(config: RunConfig, *, backends: Mapping[str, tuple[str, ...]]) -> None:
+    """Checks every value.
+
+    Args:
+      config: the composed run.
+      backends: group -> names that can be selected (wm.synth.backends.CHOICES).
+
+    Raises:
+      ConfigError: naming every key that is wrong, its value, and the choices or the range.
+    """
+    values = dict(_leaves(config))
+    choices = dict(CHOICES) | {f"{group}.name": names for group, names in backends.items()}
+    problems = [f"{key}={values[key]!r}: choose one of {', '.join(names)}" for key, names in choices.items() if values[key] not in names]
+    for key, (low, high) in RANGES.items():
+        if not _within(values[key], low, high):
+            problems.append(f"{key}={values[key]!r}: must be a number from {low:g} to {high:g}")
+    problems += _scene_problems(config)
+    if config.verify.low > config.verify.high:
+        problems.append(f"verify.low={config.verify.low!r}: must not exceed verify.high={config.verify.high!r}")
+    if config.raster.alpha_min >= config.raster.alpha_max:
+        problems.append(f"raster.alpha_min={config.raster.alpha_min!r}: must be below raster.alpha_max={config.raster.alpha_max!r}")
+    if problems:
+        raise ConfigError("; ".join(problems))
+
+
+def _scene_problems(config: RunConfig) -> Iterator[str]:
+    scene = config.scene
+    for key, value in (("scene.name", scene.name), ("variant", config.variant), ("preset", config.preset)):
+        if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9_.-]*", value):
+            yield f"{key}={value!r}: names a folder, so letters, digits, '_', '-' and '.' only"
+    if not scene.theme.strip():
+        yield "scene.theme='': say in words what the scene should be"
+    if not scene.rooms and config.plan.file is None:
+        yield "scene.rooms=[]: name at least one room, or give a plan.file"
+    if any(not room.strip() for room in scene.rooms):
+        yield f"scene.rooms={scene.rooms!r}: a room without a name"
+
+
+def _leaves(record: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+    for field in fields(record):
+        value = getattr(record, field.name)
+        if is_dataclass(value):
+            yield from _leaves(value, f"{prefix}{field.name}.")
+        else:
+            yield f"{prefix}{field.name}", value
+
+
+def _within(value: Any, low: float, high: float) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and low <= value <= high
