@@ -88,6 +88,7 @@ class RasterSettings:
     transmittance_min: float = 1e-4  # a pixel is finished below
     near: float = 0.05  # metres
     frustum_margin: float = 1.3  # EWA Jacobian clamped at this multiple of tan(fov / 2)
+    depth: bool = True  # False leaves depth out of the render (it is 0 then) and of its cost
     tile: int = 8
     chunk: int = 8
     block: int = 64

@@ -1,0 +1,162 @@
+"""Gaussians in the world become ellipses on the image: EWA splatting, one elementwise pass over (., n) rows.
+
+Notation: p = R x + t (camera axes), (a, b) = p_xy / p_z, S = diag(exp(log_scales)), Q = rotation of the unit quaternion.
+
+    mean2d = focal * (a, b) + principal
+    M = J R Q S (2 x 3),  J = [[fx / z, 0, -fx a' / z], [0, fy / z, -fy b' / z]],  a', b' clamped near the frustum
+    Sigma = M M^T + blur I = [[xx, xy], [xy, yy]],  det = sum of squared 2 x 2 minors of M + blur trace(M M^T) + blur^2
+    q = 1/2 d^T Sigma^-1 d = 1/2 ((l0 dx + l1 dy)^2 + (l2 dy)^2),  l = (sqrt(yy / det), -xy / sqrt(det yy), 1 / sqrt(yy))
+
+The determinant as a sum of squares (Cauchy-Binet) and q as a sum of squares (l is the Cholesky factor of the conic) keep their
+digits for needles, where xx yy - xy^2 and the expanded form cancel. A gaussian is culled unless every comparison that keeps it
+holds, so NaN culls; culled ones have opacity and extent 0 and no gradient.
+Work: once per view, O(n).
+"""
+
+import functools
+from typing import Any
+
+import chex
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float
+
+from wm.numerics import normalize_quat, safe_div, safe_norm
+from wm.schema import RasterSettings
+from wm.splat.harmonics import harmonics
+from wm.types import Camera, Gaussians
+
+FARTHEST = 1e9
+"""Ellipses whose centre or size exceeds this many pixels are culled: float32 has no digits left there, and q stays finite."""
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Projected:
+    """Gaussians on the image plane, on the device, channel-first. Culled ones have opacity 0 and extent 0."""
+
+    mean2d: Any  # [2, n] pixels
+    root: Any  # [3, n] l, the Cholesky factor of the conic, px^-1: q = 1/2 ((l0 dx + l1 dy)^2 + (l2 dy)^2)
+    opacity: Any  # [n]
+    color: Any  # [3, n] sRGB-encoded, seen from this camera
+    depth: Any  # [n] z-depth of the centre, metres
+    extent: Any  # [2, n] half width and half height of the ellipse where alpha falls to `alpha_min`, px; no gradient
+
+
+def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = RasterSettings()) -> Projected:
+    """Gaussians as the camera sees them; differentiable in the gaussians and in the camera's arrays.
+
+    Args:
+        gaussians: n gaussians in world space, NumPy or JAX.
+        camera: where they are seen from; its arrays may be NumPy.
+        settings: blur, near, alpha_min and frustum_margin are read here.
+
+    Returns:
+        The ellipses, in the order of the gaussians.
+
+    Source: Zwicker et al., "EWA Splatting" (2002); the clamp, blur and cut follow Kerbl et al. (2023), the clamp made aware
+    of the principal point. The bounding ellipse is exact for the alpha cut, not 3 sigma.
+    """
+    to_float32 = functools.partial(jax.tree.map, lambda x: jnp.asarray(x, jnp.float32))
+    return _project(to_float32(gaussians), to_float32(camera), settings)
+
+
+@functools.partial(jax.custom_vjp, nondiff_argnums=(2,))
+def _project(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> Projected:
+    return _project_fwd(gaussians, camera, settings)[0]
+
+
+def _project_fwd(gaussians: Gaussians, camera: Camera, settings: RasterSettings):
+    raw, covariance = _ellipses(gaussians, camera, settings)
+    visible = _is_visible(raw, covariance, settings)
+    # alpha falls to alpha_min on the ellipse d^T Sigma^-1 d = 2 ln(o / alpha_min), whose bounding box is radius * sqrt(diagonal)
+    ratio = jnp.where(visible, raw.opacity, settings.alpha_min) / settings.alpha_min
+    extent = jnp.sqrt(2 * jnp.log(ratio) * jnp.where(visible, covariance, 0.0))
+    shown = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), raw)
+    return shown.replace(extent=extent), (gaussians, camera, visible)
+
+
+def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
+    # Culled gaussians are replaced by one that is safe to differentiate before the pass is run again: a NaN of theirs would
+    # reach the camera's gradient, which sums over all.
+    gaussians, camera, visible = residuals
+    _, pull = jax.vjp(lambda g, c: _ellipses(g, c, settings, visible)[0], gaussians, camera)
+    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), cotangent)
+    return pull(masked.replace(extent=jnp.zeros_like(masked.extent)))
+
+
+_project.defvjp(_project_fwd, _project_bwd)
+
+
+def _ellipses(
+    gaussians: Gaussians, camera: Camera, settings: RasterSettings, visible: Bool[Array, " n"] | None = None
+) -> tuple[Projected, Float[Array, "2 n"]]:
+    """The equations above, nothing culled, and the diagonal of Sigma; where `visible` is False a harmless gaussian stands in."""
+
+    def keep(x, stand_in):
+        return x if visible is None else jnp.where(visible, x, stand_in)
+
+    x, y, z = (keep(row, 0.0) for row in gaussians.means.T)
+    T = camera.T_cam_world
+    p_cam = [T[i, 0] * x + T[i, 1] * y + T[i, 2] * z + T[i, 3] for i in range(3)]
+    pz = keep(p_cam[2], 1.0)
+    a, b = keep(p_cam[0], 0.0) / pz, keep(p_cam[1], 0.0) / pz
+    fx, fy = camera.focal
+    M = _image_axes(gaussians, T, (fx / pz, fy / pz), _clamped(a, b, camera, settings), keep)
+    xx, xy, yy = (sum(p * q for p, q in zip(M[i], M[j])) for i, j in ((0, 0), (0, 1), (1, 1)))
+    minors = (M[0][i] * M[1][j] - M[0][j] * M[1][i] for i, j in ((0, 1), (0, 2), (1, 2)))
+    det = sum(m * m for m in minors) + settings.blur * (xx + yy) + settings.blur**2
+    xx, yy = xx + settings.blur, yy + settings.blur
+    mean2d = jnp.stack([fx * a + camera.principal[0], fy * b + camera.principal[1]])
+    projected = Projected(
+        mean2d=mean2d,
+        root=jnp.stack([jnp.sqrt(yy / det), -xy / jnp.sqrt(det * yy), 1 / jnp.sqrt(yy)]),
+        opacity=jax.nn.sigmoid(keep(gaussians.opacity_logits, 0.0)),
+        color=_colors(keep(gaussians.sh.T, 0.0), jnp.stack([x, y, z]), T),
+        depth=pz,
+        extent=jnp.zeros_like(mean2d),
+    )
+    return projected, jnp.stack([xx, yy])
+
+
+def _clamped(a, b, camera: Camera, settings: RasterSettings):
+    """Slopes (a, b) held within the margin around the frustum, where the linearisation of the projection still means something."""
+    held = []
+    for slope, focal, centre, size in zip((a, b), camera.focal, camera.principal, (camera.width, camera.height)):
+        margin = (settings.frustum_margin - 1) * 0.5 * size / focal
+        held.append(jnp.clip(slope, -centre / focal - margin, (size - centre) / focal + margin))
+    return held
+
+
+def _image_axes(gaussians: Gaussians, T, scale, slope, keep):
+    """M = J R Q S: where each local axis of a gaussian, one standard deviation long, goes on the image; [2][3] rows of n."""
+    w, x, y, z = normalize_quat(keep(gaussians.quats.T, 0.0).T).T
+    Q = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    lengths = jnp.exp(keep(gaussians.log_scales.T, 0.0))
+    # J R row by row first: two rows of three instead of a 3 x 3 product
+    JR = [[scale[i] * (T[i, k] - slope[i] * T[2, k]) for k in range(3)] for i in range(2)]
+    return [[sum(JR[i][k] * Q[k][j] for k in range(3)) * lengths[j] for j in range(3)] for i in range(2)]
+
+
+def _colors(sh, x_world, T):
+    """0.5 + sum_k sh_k Y_k(direction from the camera); sh is (3, k, n). With one coefficient no direction is computed."""
+    degree = {1: 0, 4: 1, 9: 2, 16: 3}.get(sh.shape[1])
+    if degree is None:
+        raise ValueError(f"gaussians.sh has {sh.shape[1]} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right")
+    if degree == 0:
+        return 0.5 + harmonics(None, 0)[0] * sh[:, 0]
+    centre = -(T[:3, :3].T @ T[:3, 3])
+    away = (x_world - centre[:, None]).T
+    direction = safe_div(away, safe_norm(away)[:, None]).T
+    return 0.5 + sum(Y * sh[:, k] for k, Y in enumerate(harmonics(direction, degree)))
+
+
+def _is_visible(raw: Projected, covariance, settings: RasterSettings) -> Bool[Array, " n"]:
+    in_front = raw.depth > settings.near
+    opaque = raw.opacity > settings.alpha_min
+    near_enough = (jnp.abs(raw.mean2d) < FARTHEST).all(0) & (raw.depth < FARTHEST) & (covariance < FARTHEST**2).all(0)
+    finite = (jnp.abs(raw.root) < FARTHEST).all(0) & (raw.root[0] > 0) & (jnp.abs(raw.color) < FARTHEST).all(0)
+    return in_front & opaque & near_enough & finite
