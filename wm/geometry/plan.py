@@ -1,0 +1,58 @@
+"""Floor plans: the published WorldMesh layout JSON in and out.
+
+Accepted beyond the published rules: concave and non-rectangular simple polygons, walls shared in part, several openings a
+wall, ceilings of different heights, doors listed by one room or both, clockwise polygons (reversed), a first point repeated
+at the end. Everything else that a plan can do wrong has a name in `wm.geometry.plan_rules.RULES`.
+"""
+
+import os
+from pathlib import Path
+
+from wm.geometry.plan_json import MAX_BYTES, Reader, decode, encode
+from wm.geometry.plan_records import FloorPlan, Opening, PlanError, Room, Violation
+from wm.geometry.plan_rules import check_plan
+
+__all__ = ["FloorPlan", "Opening", "PlanError", "Room", "Violation", "load_plan", "parse_plan", "plan_to_json"]
+
+
+def load_plan(path: str | os.PathLike[str]) -> FloorPlan:
+    """The floor plan in a JSON file.
+
+    Raises:
+      PlanError: the file cannot be read (rule "file"), or as `parse_plan`.
+    """
+    source = os.fspath(path)
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+        text = data.decode("utf-8-sig")
+    except OSError as error:
+        raise PlanError((Violation(None, "file", f"cannot be read: {error.strerror or error}"),), source) from None
+    except UnicodeDecodeError as error:
+        raise PlanError((Violation(None, "file", f"is not UTF-8 text (byte {error.start})"),), source) from None
+    return parse_plan(text, source)
+
+
+def parse_plan(text: str, source: str = "plan") -> FloorPlan:
+    """The floor plan in a JSON text.
+
+    Args:
+      text: JSON as in design.md, "Floor plan JSON".
+      source: what the error calls the plan.
+
+    Raises:
+      PlanError: with every violation at once, each with the room's id and the rule's name.
+    """
+    reader = Reader()
+    plan, complete = reader.plan(decode(text, source))
+    violations = list(reader.violations)
+    if plan is not None:
+        violations += check_plan(plan, complete=complete)
+    if plan is None or violations:
+        raise PlanError(tuple(violations), source)
+    return plan
+
+
+def plan_to_json(plan: FloorPlan) -> str:
+    """The plan as JSON text; `parse_plan` gives the same plan back, and the same plan always gives the same text."""
+    return encode(plan)
