@@ -81,7 +81,13 @@ def random_plan(seed: int, rooms: int) -> FloorPlan:
                 listed[index].append(Opening("window", segment, round(length / 2 - 0.5, 3), 1.0, 1.2, 0.9))
     return FloorPlan(
         tuple(
-            Room(f"room{index}", f"Room {index}", np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]), float(heights[index]), tuple(listed[index]))
+            Room(
+                f"room{index}",
+                f"Room {index}",
+                np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]),
+                float(heights[index]),
+                tuple(listed[index]),
+            )
             for index, (x0, y0, x1, y1) in enumerate(boxes)
         )
     )

@@ -3,6 +3,13 @@
 from wm.geometry.footprint import Portal as Portal
 from wm.geometry.footprint import interior_polygon as interior_polygon
 from wm.geometry.footprint import portals as portals
+from wm.geometry.glb import GlbNode as GlbNode
+from wm.geometry.glb import object_nodes as object_nodes
+from wm.geometry.glb import save_glb as save_glb
+from wm.geometry.mesh import assemble_scene as assemble_scene
+from wm.geometry.mesh import check_mesh as check_mesh
+from wm.geometry.mesh import face_normals as face_normals
+from wm.geometry.mesh import object_boxes as object_boxes
 from wm.geometry.plan import FloorPlan as FloorPlan
 from wm.geometry.plan import Opening as Opening
 from wm.geometry.plan import PlanError as PlanError

@@ -14,7 +14,7 @@ from shapely.geometry import Polygon
 
 from wm.geometry.openings import Place, place_openings
 from wm.geometry.plan_records import FloorPlan, Opening, PlanError
-from wm.geometry.walls import Wall, plan_walls
+from wm.geometry.walls import Wall, plan_walls, room_polygons
 from wm.types import OUTSIDE
 
 _MITRE = 4.0  # wall thicknesses beyond a corner at which a mitre is cut off
@@ -61,7 +61,7 @@ def walls_of(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
 def interiors(plan: FloorPlan) -> tuple[Polygon | None, ...]:
     """The free floor of every room, None where the walls leave no floor in one piece; computed once a plan."""
     thin = shapely.buffer(
-        shapely.polygons([shapely.linearrings(room.polygon) for room in plan.rooms]),
+        room_polygons(plan),
         -plan.wall_thickness / 2,
         join_style="mitre",
         mitre_limit=_MITRE,
@@ -126,7 +126,7 @@ def _portal(opening: Opening, place: Place) -> Portal:
     ends = np.round(wall.start + centre * wall.normal + along * wall.direction, DECIMALS)
     normal = -wall.normal
     if behind is not None and rooms[0] > rooms[1]:
-        rooms, ends, normal = rooms[::-1], ends[::-1], -normal
+        rooms, ends, normal = (rooms[1], rooms[0]), ends[::-1], -normal
     return Portal(
         kind=opening.kind,
         rooms=rooms,

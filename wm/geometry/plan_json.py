@@ -132,7 +132,11 @@ class Reader:
         if isinstance(room_id, str) and _ID.fullmatch(room_id):
             name = room_id
         else:
-            self._fault(name, "room_id", f"'id' is {_show(room_id)}; it must be 1 to 64 of a-z, A-Z, 0-9, _ and -, a letter or digit first")
+            self._fault(
+                name,
+                "room_id",
+                f"'id' is {_show(room_id)}; it must be 1 to 64 of a-z, A-Z, 0-9, _ and -, a letter or digit first",
+            )
         title = value.get("name", room_id)
         if not isinstance(title, str) or len(title) > 200:
             self._fault(name, "type", f"'name' is {_show(title)}; it must be text of at most 200 characters")
@@ -163,7 +167,12 @@ class Reader:
         width = self._number(room, value, f"{name}.width", None, least_width, 100.0)
         height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1])
         sill = self._number(
-            room, value, f"{name}.sill_height", WINDOW_SILL if kind == "window" else 0.0, 0.0, CEILING[1] if kind == "window" else 0.0
+            room,
+            value,
+            f"{name}.sill_height",
+            WINDOW_SILL if kind == "window" else 0.0,
+            0.0,
+            CEILING[1] if kind == "window" else 0.0,
         )
         if segment is None or position is None or width is None or height is None or sill is None:
             return None
@@ -196,7 +205,9 @@ class Reader:
                 self._fault(room, "type", f"{path}[{k}] is {_show(point)}; a point is two numbers [x, y]")
                 return None
             if not all(abs(x) <= MAX_COORDINATE for x in point):
-                self._fault(room, "number", f"{path}[{k}] is {_show(point)}; coordinates are finite and within {MAX_COORDINATE:g} m")
+                self._fault(
+                    room, "number", f"{path}[{k}] is {_show(point)}; coordinates are finite and within {MAX_COORDINATE:g} m"
+                )
                 return None
         return np.array(value, dtype=np.float64)
 

@@ -11,7 +11,7 @@ import shapely
 from wm.geometry.footprint import interiors, walls_of
 from wm.geometry.openings import Place, describe, place_openings
 from wm.geometry.plan_records import FloorPlan, Room, Violation
-from wm.geometry.walls import SHARED
+from wm.geometry.walls import SHARED, room_polygons
 
 BODY = 0.3  # metres: a room must hold a disk of this radius to be entered
 LEAST_AREA = 0.01  # square metres; less is no area
@@ -76,8 +76,10 @@ def _duplicates(plan: FloorPlan) -> list[Violation]:
     violations = []
     for room in plan.rooms:
         other = seen.setdefault(room.id.casefold(), room.id)
-        if other is not room.id or violations and other == violations[-1].room:
-            violations.append(Violation(room.id, "duplicate_id", f"another room is called {other!r}; case does not tell rooms apart"))
+        if other is not room.id or (violations and other == violations[-1].room):
+            violations.append(
+                Violation(room.id, "duplicate_id", f"another room is called {other!r}; case does not tell rooms apart")
+            )
     return violations
 
 
@@ -97,7 +99,7 @@ def _shape_fault(room: Room) -> Violation | None:
 
 
 def _overlaps(plan: FloorPlan) -> list[Violation]:
-    polygons = shapely.polygons([shapely.linearrings(room.polygon) for room in plan.rooms])
+    polygons = room_polygons(plan)
     # Moved in by half the tolerance, rooms that only touch within it have nothing in common.
     cores = shapely.buffer(polygons, -SHARED / 2 - 1e-6, join_style="mitre")
     first, second = shapely.STRtree(cores).query(cores, predicate="intersects")
@@ -128,7 +130,8 @@ def _squeezed(plan: FloorPlan, place: Place) -> Violation | None:
             return Violation(room.id, "opening_off_wall", message)
     for side in sides:
         if not _before_face(plan, place, side):
-            message = f"{name} reaches into a corner of room {plan.rooms[side].id}; keep it between the inner faces of the walls beside it"
+            corner = f"a corner of room {plan.rooms[side].id}"
+            message = f"{name} reaches into {corner}; keep it between the inner faces of the walls beside it"
             return Violation(room.id, "opening_off_wall", message)
     return None
 
@@ -152,7 +155,7 @@ def _blind_windows(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation
     windows = [place for place in places if place.behind is None]
     if not windows:
         return []
-    polygons = shapely.polygons([shapely.linearrings(room.polygon) for room in plan.rooms])
+    polygons = room_polygons(plan)
     views = np.array([_strip(place, -OUTLOOK, -SHARED) for place in windows])
     window, blocked = shapely.STRtree(polygons).query(views, predicate="intersects")
     violations = []
@@ -169,7 +172,9 @@ def _strip(place: Place, low: float, high: float) -> shapely.Polygon:
     """The rectangle over an opening from `low` to `high` metres inside its wall's line."""
     wall = place.wall
     start, end = wall.start + place.low * wall.direction, wall.start + place.high * wall.direction
-    return shapely.Polygon([start + low * wall.normal, end + low * wall.normal, end + high * wall.normal, start + high * wall.normal])
+    return shapely.Polygon(
+        [start + low * wall.normal, end + low * wall.normal, end + high * wall.normal, start + high * wall.normal]
+    )
 
 
 def _unreachable(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation]:

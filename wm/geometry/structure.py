@@ -18,7 +18,7 @@ from shapely.geometry import Polygon
 from wm.geometry.footprint import DECIMALS, Portal, interior_polygon, portals
 from wm.geometry.plan_records import FloorPlan
 from wm.geometry.prism import Prism, carve, polygon_rings
-from wm.geometry.walls import SHARED
+from wm.geometry.walls import SHARED, room_polygons
 from wm.types import OUTSIDE, Mesh, SurfaceKind
 
 SLAB = 0.15  # metres of floor and ceiling slab
@@ -66,7 +66,7 @@ _SKIN = _label(OUTSIDE, SurfaceKind.EXTERIOR)
 
 def outline(plan: FloorPlan) -> Polygon | shapely.MultiPolygon:
     """The building from above: the union of the room polygons, gaps narrower than SHARED closed."""
-    rooms = shapely.union_all(shapely.polygons([shapely.linearrings(room.polygon) for room in plan.rooms]))
+    rooms = shapely.union_all(room_polygons(plan))
     mitred = {"join_style": "mitre", "mitre_limit": 1e3}
     closed = rooms.buffer(SHARED / 2 + 1e-6, **mitred).buffer(-SHARED / 2 - 1e-6, **mitred)
     return shapely.simplify(closed, 1e-7)
@@ -119,9 +119,9 @@ def _window(portal: Portal, origin: np.ndarray) -> list[Prism]:
 
 
 def _ring(portal: Portal, origin: np.ndarray, low: float, high: float) -> np.ndarray:
-    """[4, 2]: the rectangle from `low` to `high` along the normal; its edges lie at `high`, beside the end, at `low`, beside the start.
+    """[4, 2]: the rectangle over the opening from `low` to `high` along the normal, counter-clockwise.
 
-    Counter-clockwise, because a portal's normal is on the right of start -> end.
+    Its edges: at `high`, beside the end, at `low`, beside the start (the normal is on the right of start -> end).
     """
     start, end = portal.ends - origin[:2]
     near, far = low * portal.normal, high * portal.normal

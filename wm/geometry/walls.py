@@ -57,6 +57,11 @@ def straight_ring(polygon: np.ndarray) -> np.ndarray:
     return ring
 
 
+def room_polygons(plan: FloorPlan) -> np.ndarray:
+    """[rooms] shapely polygons, for its vectorised functions."""
+    return np.array([shapely.Polygon(room.polygon) for room in plan.rooms], dtype=object)
+
+
 def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
     """The walls of every room, counter-clockwise, with the rooms behind them. Polygons must be simple."""
     rings = [straight_ring(room.polygon) for room in plan.rooms]
@@ -85,7 +90,7 @@ def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
 def _shared_stretches(room, start, direction, length) -> list[list[Behind]]:
     """For each wall, the stretches along which a wall of another room runs against it."""
     end = start + direction * length[:, None]
-    lines = shapely.linestrings(np.stack([start, end], axis=1))
+    lines = np.asarray(shapely.linestrings(np.stack([start, end], axis=1)))
     i, j = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=SHARED)
     apart = (room[i] != room[j]) & (np.sum(direction[i] * direction[j], axis=1) < -0.5)
     i, j = i[apart], j[apart]
