@@ -1,0 +1,67 @@
+"""What a theme's words mean for the shell of a building: size, ceilings, doors, windows, how open the rooms are to each other."""
+
+import dataclasses
+import re
+
+import numpy as np
+
+
+@dataclasses.dataclass(frozen=True)
+class Building:
+    """The shell's habits. Lengths in metres; ranges are (low, high)."""
+
+    share: tuple[float, float]  # where in its kind's range of areas a room falls, 0 smallest .. 1 largest
+    ceiling: tuple[float, float]
+    lofty: float  # how much higher a hall may be than the other rooms
+    corridor: tuple[float, float]  # width between wall centre lines
+    door: tuple[float, float]  # width, height
+    openness: float  # probability that two rooms that may be open to each other share a passage instead of a door
+    window: tuple[float, float]  # width
+    sill: float
+    head: float  # height of the lintel above the floor, lowered where the ceiling asks for it
+    spacing: float  # metres of wall a window needs beside it
+
+
+_PLAIN = Building(
+    share=(0.15, 0.75),
+    ceiling=(2.6, 2.9),
+    lofty=0.3,
+    corridor=(1.5, 1.7),
+    door=(0.9, 2.1),
+    openness=0.5,
+    window=(1.2, 1.6),
+    sill=0.9,
+    head=2.3,
+    spacing=1.0,
+)
+
+# Later rows win where two speak of the same thing, so size words come first and style words after them.
+_WORDS: tuple[tuple[str, dict], ...] = (
+    ("mansion estate palace castle manor villa chateau cathedral temple grand opulent stately",
+     {"share": (0.5, 1.0), "ceiling": (3.2, 3.6), "lofty": 0.6, "corridor": (1.8, 2.2), "head": 2.7}),
+    ("cabin cottage hut tiny bungalow shack burrow den cosy cozy snug",
+     {"share": (0.0, 0.35), "ceiling": (2.4, 2.5), "lofty": 0.0, "corridor": (1.5, 1.5), "window": (0.9, 1.2), "sill": 0.95, "head": 2.05}),
+    ("scandinavian nordic swedish danish norwegian finnish japanese japandi minimal minimalist",
+     {"openness": 0.65, "window": (1.4, 1.8), "sill": 0.7, "head": 2.25}),
+    ("modern contemporary beach coastal glass loft futuristic pavilion conservatory aquarium",
+     {"openness": 0.8, "window": (1.8, 2.6), "sill": 0.1, "head": 2.5, "spacing": 0.8}),
+    ("gothic medieval victorian baroque haunted",
+     {"openness": 0.35, "door": (1.0, 2.4), "window": (1.0, 1.3), "sill": 0.7, "head": 2.9, "spacing": 1.2}),
+    ("roman greek classical mediterranean tuscan moorish pompeian",
+     {"openness": 0.5, "door": (1.0, 2.4), "window": (1.0, 1.4), "sill": 1.0, "head": 2.6, "spacing": 1.3}),
+)  # fmt: skip
+
+
+def building_of(theme: str) -> Building:
+    """The shell that a theme's words ask for; words it does not know change nothing."""
+    words = set(re.findall(r"[a-z]+", theme.lower()))
+    building = _PLAIN
+    for keys, changes in _WORDS:
+        if words & set(keys.split()):
+            building = dataclasses.replace(building, **changes)
+    return building
+
+
+def draw(interval: tuple[float, float], rng: np.random.Generator) -> float:
+    """A uniform draw from an interval, in metres, on a 5 cm grid."""
+    return round(float(rng.uniform(*interval)) * 20) / 20

@@ -1,0 +1,119 @@
+"""The room programme: what each named room is, how large, and how it likes to be reached."""
+
+import dataclasses
+import re
+import unicodedata
+
+import numpy as np
+
+from wm.synth.language.building import Building
+
+CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private", "wet", "service"
+
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    """A kind of room: floor area range in square metres, zone, and rank from the front of the house (0) to its back."""
+
+    name: str
+    area: tuple[float, float]
+    zone: str
+    rank: float
+
+
+_KINDS = {
+    kind.name: kind
+    for kind in (
+        Kind("corridor", (6, 14), CIRCULATION, 5),
+        Kind("hall", (14, 24), CIRCULATION, 0),
+        Kind("great hall", (28, 45), CIRCULATION, 0),
+        Kind("gallery", (18, 30), CIRCULATION, 1),
+        Kind("atrium", (30, 48), CIRCULATION, 0),
+        Kind("living", (22, 34), PUBLIC, 1),
+        Kind("dining", (15, 24), PUBLIC, 2),
+        Kind("kitchen", (12, 20), PUBLIC, 3),
+        Kind("conservatory", (16, 28), PUBLIC, 2),
+        Kind("leisure", (18, 28), PUBLIC, 4),
+        Kind("library", (18, 28), PUBLIC, 5),
+        Kind("workshop", (16, 26), PUBLIC, 5),
+        Kind("study", (10, 15), PRIVATE, 6),
+        Kind("bedroom", (12, 20), PRIVATE, 7),
+        Kind("bathroom", (5, 9), WET, 8),
+        Kind("service", (5, 8), SERVICE, 3.5),
+        Kind("other", (14, 22), PUBLIC, 4),
+    )
+}
+
+# The last word that says what a room is decides ("hall bathroom" is a bathroom); phrases come before words.
+_PHRASES = {
+    "great hall": "great hall", "grand hall": "great hall", "throne room": "great hall", "dining hall": "dining",
+    "winter garden": "conservatory", "billiard room": "leisure", "guest room": "bedroom", "guest suite": "bedroom",
+    "powder room": "bathroom", "utility room": "service", "cloak room": "service", "family room": "living",
+}  # fmt: skip
+_WORDS = {
+    "corridor": "corridor hallway passage passageway landing",
+    "hall": "hall foyer lobby vestibule entry entrance entryway rotunda",
+    "gallery": "gallery arcade colonnade",
+    "atrium": "atrium courtyard patio court cloister peristyle",
+    "living": "living lounge sitting salon parlour parlor drawing sunken",
+    "dining": "dining refectory triclinium breakfast",
+    "kitchen": "kitchen kitchenette galley scullery",
+    "conservatory": "conservatory sunroom greenhouse orangery veranda solarium terrace aquarium garden",
+    "leisure": "music ballroom game games billiard theatre theater cinema gym chapel playroom",
+    "library": "library archive reading",
+    "workshop": "workshop studio laboratory lab observatory atelier",
+    "study": "study office den nook snug",
+    "bedroom": "bedroom chamber nursery dormitory suite cubiculum bed",
+    "bathroom": "bathroom bath bathhouse washroom wc toilet shower ensuite thermae spa lavatory restroom",
+    "service": "pantry larder laundry utility closet storage store storeroom cellar mudroom dressing wardrobe cloakroom",
+}
+_WORD_KIND = {word: kind for kind, words in _WORDS.items() for word in words.split()}
+
+
+@dataclasses.dataclass(frozen=True)
+class Space:
+    """One room that is wanted."""
+
+    id: str
+    name: str
+    kind: Kind
+    area: float  # square metres to aim for
+
+
+def kind_of(room: str) -> Kind:
+    """The kind a room's name speaks of; "other" (a public room of middling size) where it speaks of none."""
+    words = re.findall(r"[a-z]+", room.lower())
+    for end in range(len(words), 0, -1):
+        phrase = " ".join(words[max(end - 2, 0) : end])
+        name = _PHRASES.get(phrase) or _WORD_KIND.get(words[end - 1])
+        if name:
+            return _KINDS[name]
+    return _KINDS["other"]
+
+
+def read_programme(rooms: list[str], building: Building, rng: np.random.Generator) -> list[Space]:
+    """The wanted rooms with unique ids and areas drawn from their kinds' ranges."""
+    spaces: list[Space] = []
+    for room in rooms:
+        add_space(spaces, room, building, rng)
+    return spaces
+
+
+def add_space(spaces: list[Space], room: str, building: Building, rng: np.random.Generator) -> int:
+    """Appends one more room to the programme and returns its index."""
+    kind = kind_of(room)
+    share = float(rng.uniform(*building.share))
+    area = kind.area[0] + share * (kind.area[1] - kind.area[0])
+    same = sum(_slug(space.name) == _slug(room) for space in spaces)
+    taken = {space.id for space in spaces}
+    room_id, count = _slug(room), same + 1
+    while room_id in taken:
+        room_id, count = f"{_slug(room)}_{count}", count + 1
+    name = " ".join(room.split())
+    spaces.append(Space(id=room_id, name=name, kind=kind, area=area))
+    return len(spaces) - 1
+
+
+def _slug(room: str) -> str:
+    plain = unicodedata.normalize("NFKD", room).encode("ascii", "ignore").decode().lower()
+    return re.sub(r"[^a-z0-9]+", "_", plain).strip("_")[:40] or "room"
