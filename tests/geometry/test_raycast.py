@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from wm.geometry import raycast
 from wm.geometry._reference import cast_rays_reference, cast_reference, occluded_reference
 from wm.geometry.camera import camera_center, camera_rays, make_camera, unproject_depth
@@ -18,10 +19,11 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def _mesh(vertices, faces):
+    faces = np.asarray(faces, np.int32).reshape(-1, 3)
     label = np.zeros(len(faces), np.int32)
     return Mesh(
         vertices=np.asarray(vertices, np.float64),
-        faces=np.asarray(faces, np.int32).reshape(-1, 3),
+        faces=faces,
         face_room=label,
         face_kind=label,
         face_object=label - 1,

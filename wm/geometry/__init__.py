@@ -1,5 +1,14 @@
 """Plans, structure, cameras, raycasts and texture on the host, in NumPy float64. Nothing heavy is imported before its use."""
 
+from wm.geometry.atlas import build_atlas as build_atlas
+from wm.geometry.atlas import texel_positions as texel_positions
+from wm.geometry.camera import camera_center as camera_center
+from wm.geometry.camera import camera_quat as camera_quat
+from wm.geometry.camera import camera_rays as camera_rays
+from wm.geometry.camera import make_camera as make_camera
+from wm.geometry.camera import project_points as project_points
+from wm.geometry.camera import scale_camera as scale_camera
+from wm.geometry.camera import unproject_depth as unproject_depth
 from wm.geometry.footprint import Portal as Portal
 from wm.geometry.footprint import interior_polygon as interior_polygon
 from wm.geometry.footprint import portals as portals
@@ -18,4 +27,13 @@ from wm.geometry.plan import Violation as Violation
 from wm.geometry.plan import load_plan as load_plan
 from wm.geometry.plan import parse_plan as parse_plan
 from wm.geometry.plan import plan_to_json as plan_to_json
+from wm.geometry.raycast import RayHits as RayHits
+from wm.geometry.raycast import RayScene as RayScene
+from wm.geometry.raycast import build_ray_scene as build_ray_scene
+from wm.geometry.raycast import cast as cast
+from wm.geometry.raycast import cast_rays as cast_rays
+from wm.geometry.raycast import occluded as occluded
+from wm.geometry.sampling import sample_atlas as sample_atlas
 from wm.geometry.structure import build_structure as build_structure
+from wm.geometry.texture import accumulate as accumulate
+from wm.geometry.views import place_cameras as place_cameras

@@ -36,7 +36,9 @@ def build(vertices: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"]) -> 
     return built
 
 
-def intersect(built: EmbreeScene, origins: Float[np.ndarray, "r 3"], directions: Float[np.ndarray, "r 3"]) -> dict[str, np.ndarray]:
+def intersect(
+    built: EmbreeScene, origins: Float[np.ndarray, "r 3"], directions: Float[np.ndarray, "r 3"]
+) -> dict[str, np.ndarray]:
     """Nearest hits: tfar [r] in units of |d| (FAR on a miss), u, v [r], primID [r] (-1 on a miss). Releases the GIL."""
     _check_rays(origins, directions)
     if built.scene is None or len(origins) == 0:
