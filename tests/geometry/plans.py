@@ -8,11 +8,11 @@ from wm.geometry.plan import FloorPlan, Opening, Room, parse_plan, plan_to_json
 
 
 def rectangle(name: str, x0: float, y0: float, x1: float, y1: float, *openings: Opening, height: float = 2.8) -> Room:
-    return Room(name, name.title(), np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]], float), height, openings)
+    return Room(name, name.title(), np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]], float), float(height), openings)
 
 
 def opening(kind: str, start, end, position: float, width: float = 0.9, height: float = 2.1, sill: float = 0.0) -> Opening:
-    return Opening(kind, np.array([start, end], float), position, width, height, sill)
+    return Opening(kind, np.array([start, end], float), float(position), float(width), float(height), float(sill))
 
 
 def window(start, end, position: float, width: float = 1.5) -> Opening:

@@ -120,7 +120,7 @@ def _portal(opening: Opening, place: Place) -> Portal:
     if behind is None:
         rooms, centre, half_depths = (place.room, OUTSIDE), wall.thickness / 2, (wall.thickness / 2, wall.thickness / 2)
     else:
-        rooms, centre = (place.room, behind.room), -behind.gap / 2
+        rooms, centre = (place.room, behind.room), -place.gap / 2
         half_depths = (wall.thickness - centre, wall.thickness - centre)
     along = np.array([[place.low], [place.high]])
     ends = np.round(wall.start + centre * wall.normal + along * wall.direction, DECIMALS)

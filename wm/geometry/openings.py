@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+import shapely
 
 from wm.geometry.plan_records import FloorPlan, Opening, Violation
 from wm.geometry.walls import SHARED, Behind, Wall
@@ -21,9 +22,21 @@ class Place:
     high: float
     behind: Behind | None  # the stretch of shared wall that holds it; None on an exterior wall
 
+    @property
+    def gap(self) -> float:
+        """Metres between the two lines of a shared wall, at the opening's middle; 0 on an exterior wall."""
+        return 0.0 if self.behind is None else self.behind.gap((self.low + self.high) / 2)
 
-def place_openings(plan: FloorPlan, walls: tuple[tuple[Wall, ...], ...]) -> tuple[tuple[Place, ...], tuple[Violation, ...]]:
+
+def place_openings(
+    plan: FloorPlan, walls: tuple[tuple[Wall, ...], ...], unknown: shapely.Geometry | None = None
+) -> tuple[tuple[Place, ...], tuple[Violation, ...]]:
     """Every opening once, on its wall, and the violations of those that cannot be placed.
+
+    Args:
+      plan: rooms with simple polygons.
+      walls: of the plan (`plan_walls`).
+      unknown: where rooms may be that the plan should hold and does not; doors there are left out in silence.
 
     Returns:
       places: one for each opening in the order of the plan, less the second entry of doors that both rooms list.
@@ -34,10 +47,10 @@ def place_openings(plan: FloorPlan, walls: tuple[tuple[Wall, ...], ...]) -> tupl
     for index, room in enumerate(plan.rooms):
         for k, opening in enumerate(room.openings):
             place = _place(index, k, opening, walls[index])
-            if isinstance(place, tuple):
-                violations.append(Violation(room.id, *place))
-            else:
+            if isinstance(place, Place):
                 places.append(place)
+            elif place[0] != "door_exterior" or unknown is None or unknown.disjoint(shapely.LineString(opening_ends(opening))):
+                violations.append(Violation(room.id, *place))
     kept, clashes = _once(plan, places)
     return kept, (*violations, *clashes)
 

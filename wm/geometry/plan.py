@@ -23,13 +23,18 @@ def load_plan(path: str | os.PathLike[str]) -> FloorPlan:
     """
     source = os.fspath(path)
     try:
+        if Path(path).exists() and not Path(path).is_file():
+            raise OSError("it is not a file")  # a pipe would be waited for
         with Path(path).open("rb") as file:
             data = file.read(MAX_BYTES + 1)
+        if len(data) > MAX_BYTES:
+            raise OSError(f"it is longer than {MAX_BYTES} bytes")
         text = data.decode("utf-8-sig")
-    except OSError as error:
-        raise PlanError((Violation(None, "file", f"cannot be read: {error.strerror or error}"),), source) from None
     except UnicodeDecodeError as error:
         raise PlanError((Violation(None, "file", f"is not UTF-8 text (byte {error.start})"),), source) from None
+    except (OSError, ValueError) as error:  # ValueError: a path with a null character
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise PlanError((Violation(None, "file", f"cannot be read: {reason}"),), source) from None
     return parse_plan(text, source)
 
 
@@ -44,10 +49,10 @@ def parse_plan(text: str, source: str = "plan") -> FloorPlan:
       PlanError: with every violation at once, each with the room's id and the rule's name.
     """
     reader = Reader()
-    plan, complete = reader.plan(decode(text, source))
+    plan = reader.plan(decode(text, source))
     violations = list(reader.violations)
     if plan is not None:
-        violations += check_plan(plan, complete=complete)
+        violations += check_plan(plan, rooms_missing=reader.rooms_missing, openings_missing=reader.openings_missing)
     if plan is None or violations:
         raise PlanError(tuple(violations), source)
     return plan

@@ -1,7 +1,6 @@
 """Reading plan text into records: syntax, types and ranges, every fault named. What rooms mean together is plan_rules'."""
 
 import json
-import math
 import re
 from typing import Any
 
@@ -9,10 +8,10 @@ import numpy as np
 
 from wm.geometry.plan_records import FloorPlan, Opening, PlanError, Room, Violation
 
-MAX_BYTES = 16 * 2**20
-MAX_ROOMS = 4096
-MAX_POINTS = 512  # a polygon
-MAX_OPENINGS = 128  # a room
+MAX_BYTES = 8 * 2**20
+MAX_ROOMS = 2048
+MAX_POINTS = 128  # a polygon
+MAX_OPENINGS = 64  # a room
 MAX_COORDINATE = 1e4  # metres
 CEILING = (1.8, 50.0)  # metres: below the lowest nobody stands
 WALL = (0.05, 1.0)
@@ -35,7 +34,7 @@ def decode(text: str, source: str) -> Any:
     if len(text) > MAX_BYTES:
         raise _syntax(f"{len(text)} characters long; at most {MAX_BYTES} are read", source)
     try:
-        return json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant)
+        return json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant, parse_int=_integer)
     except RecursionError:
         raise _syntax("nested too deeply; a plan needs six levels", source) from None
     except json.JSONDecodeError as error:
@@ -84,29 +83,30 @@ class Reader:
 
     def __init__(self) -> None:
         self.violations: list[Violation] = []
+        self.rooms_missing = False  # rooms are in the document that could not be read
+        self.openings_missing = False  # openings likewise
 
-    def plan(self, document: Any) -> tuple[FloorPlan | None, bool]:
-        """The plan of all rooms that could be read, and whether that is all of them."""
+    def plan(self, document: Any) -> FloorPlan | None:
+        """The plan of all rooms and openings that could be read; None where there is no room."""
         if not isinstance(document, dict):
             self._fault(None, "type", f"a plan is a JSON object, not {_kind(document)}")
-            return None, False
+            return None
         wall, ceiling = self._metadata(document.get("metadata", {}))
         rooms = document.get("rooms")
         if not isinstance(rooms, list):
             found = "missing" if rooms is None else f"{_kind(rooms)}"
             self._fault(None, "type", f"'rooms' must be a list of rooms; it is {found}")
-            return None, False
+            return None
         if not rooms:
             self._fault(None, "no_rooms", "'rooms' is empty; a plan has at least one room")
-            return None, False
+            return None
         if len(rooms) > MAX_ROOMS:
             self._fault(None, "too_many", f"{len(rooms)} rooms; at most {MAX_ROOMS}")
-            return None, False
+            return None
         read = [self._room(room, index, ceiling) for index, room in enumerate(rooms)]
         good = tuple(room for room in read if room is not None)
-        if not good:
-            return None, False
-        return FloorPlan(good, wall, ceiling), len(good) == len(read)
+        self.rooms_missing = len(good) < len(read)
+        return FloorPlan(good, wall, ceiling) if good else None
 
     def _fault(self, room: str | None, rule: str, message: str) -> None:
         self.violations.append(Violation(room, rule, message))
@@ -127,7 +127,6 @@ class Reader:
         if not isinstance(value, dict):
             self._fault(name, "type", f"a room is an object, not {_kind(value)}")
             return None
-        before = len(self.violations)
         room_id = value.get("id")
         if isinstance(room_id, str) and _ID.fullmatch(room_id):
             name = room_id
@@ -138,8 +137,9 @@ class Reader:
                 f"'id' is {_show(room_id)}; it must be 1 to 64 of a-z, A-Z, 0-9, _ and -, a letter or digit first",
             )
         title = value.get("name", room_id)
-        if not isinstance(title, str) or len(title) > 200:
-            self._fault(name, "type", f"'name' is {_show(title)}; it must be text of at most 200 characters")
+        if not isinstance(title, str) or len(title) > 200 or not title.isprintable():
+            self._fault(name, "type", f"'name' is {_show(title)}; it must be one line of at most 200 printable characters")
+            title = name
         height = self._number(name, value, "ceiling_height", ceiling, *CEILING)
         polygon = self._points(name, value.get("floor_polygon"), "floor_polygon", 3, MAX_POINTS)
         openings = value.get("openings", [])
@@ -147,10 +147,14 @@ class Reader:
             found = f"{len(openings)} long" if isinstance(openings, list) else _kind(openings)
             self._fault(name, "type", f"'openings' is {found}; it must be a list of at most {MAX_OPENINGS}")
             openings = []
+            self.openings_missing = True
         read = [self._opening(name, opening, k) for k, opening in enumerate(openings)]
-        if polygon is None or height is None or len(self.violations) > before:
+        good = tuple(opening for opening in read if opening is not None)
+        self.openings_missing |= len(good) < len(read)
+        if polygon is None:
             return None
-        return Room(name, title, _counter_clockwise(polygon), height, tuple(o for o in read if o is not None))
+        # A height that cannot be read must not make openings reach above it.
+        return Room(name, title, _counter_clockwise(polygon), CEILING[1] if height is None else height, good)
 
     def _opening(self, room: str, value: Any, k: int) -> Opening | None:
         name = f"openings[{k}]"
@@ -234,6 +238,12 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return result
 
 
+def _integer(digits: str) -> int:
+    if len(digits) > 18:
+        raise ValueError(f"a number of {len(digits)} digits is not one a plan can hold")
+    return int(digits)
+
+
 def _no_constant(name: str) -> float:
     raise ValueError(f"{name} is not a number a plan can hold")
 
@@ -249,7 +259,7 @@ def _kind(value: Any) -> str:
 
 def _show(value: Any) -> str:
     """A value as a message quotes it: short, whatever it is."""
-    if isinstance(value, int) and not isinstance(value, bool) and abs(value) >= 10**20:
-        return f"a number of {math.floor(math.log10(abs(value))) + 1} digits"
-    text = json.dumps(value) if not isinstance(value, (dict, list)) or len(value) <= 4 else _kind(value)
+    if isinstance(value, dict) or (isinstance(value, list) and any(isinstance(part, (dict, list)) for part in value)):
+        return _kind(value)
+    text = json.dumps(value)
     return text if len(text) <= 60 else text[:57] + "..."

@@ -54,6 +54,7 @@ class PlanError(ValueError):
     """A floor plan that cannot be used, with everything that is wrong with it."""
 
     def __init__(self, violations: tuple[Violation, ...], source: str = "plan"):
-        self.violations = violations
+        self.violations = tuple(violations)
+        self.source = source
         count = "1 violation" if len(violations) == 1 else f"{len(violations)} violations"
         super().__init__(f"{source}: {count}\n" + "\n".join(f"  {violation}" for violation in violations))

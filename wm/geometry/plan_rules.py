@@ -1,6 +1,7 @@
 """The rules a plan keeps, each with a name; all that are broken are named at once.
 
-Of a room that breaks a rule of its own the rest of the plan is not asked: doors to it are neither right nor wrong.
+First each room on its own, then all rooms that are sound together. Where a room is broken or missing, what depends on it
+(doors that may lead there, whether everything can be reached) is not judged.
 """
 
 import dataclasses
@@ -16,8 +17,10 @@ from wm.geometry.walls import SHARED, room_polygons
 BODY = 0.3  # metres: a room must hold a disk of this radius to be entered
 LEAST_AREA = 0.01  # square metres; less is no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
+MOST_OVERLAPS = 256  # more are not listed, and nothing else is asked of such a heap
 
 RULES = {
+    "file": "The file can be read and is UTF-8 text.",
     "json": "The text is JSON without duplicate keys, NaN or Infinity, and not absurdly long or deep.",
     "type": "Every field is there, where it has no default, and has the right type.",
     "number": "Every number is finite and within its range.",
@@ -39,141 +42,137 @@ RULES = {
 }
 
 
-def check_plan(plan: FloorPlan, *, complete: bool = True) -> tuple[Violation, ...]:
+def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing: bool = False) -> tuple[Violation, ...]:
     """Every rule that a plan of well-formed records breaks.
 
     Args:
-      plan: rooms as `Reader` makes them: finite numbers in range, polygons counter-clockwise.
-      complete: False where rooms of the plan could not be read, so that nothing is said of doors that may lead there.
+      plan: rooms as `Reader` makes them: numbers finite and in range, polygons counter-clockwise.
+      rooms_missing: whether there are more rooms that could not be read.
+      openings_missing: whether rooms have more openings that could not be read.
     """
     violations = _duplicates(plan)
-    broken = [_shape_fault(room) for room in plan.rooms]
-    violations += [fault for fault in broken if fault is not None]
-    sound = tuple(room for room, fault in zip(plan.rooms, broken) if fault is None)
+    faults = [_shape_fault(room) for room in plan.rooms]
+    violations += [fault for fault in faults if fault is not None]
+    unknown = _unknown([room for room, fault in zip(plan.rooms, faults) if fault is not None], everywhere=rooms_missing)
+    sound = tuple(room for room, fault in zip(plan.rooms, faults) if fault is None)
     if not sound:
         return tuple(violations)
-    complete = complete and len(sound) == len(plan.rooms)
     plan = dataclasses.replace(plan, rooms=sound)
     overlaps = _overlaps(plan)
-    small = [
-        Violation(room.id, "room_too_small", f"inside its walls no disk of {BODY:g} m radius fits, or the floor is in pieces")
-        for room, roomy in zip(plan.rooms, _roomy(plan))
-        if not roomy
-    ]
-    places, misplaced = place_openings(plan, walls_of(plan))
-    if not complete:
-        misplaced = tuple(violation for violation in misplaced if violation.rule != "door_exterior")
-    squeezed = [fault for place in places if (fault := _squeezed(plan, place)) is not None]
-    blind = _blind_windows(plan, places)
-    violations += [*overlaps, *small, *misplaced, *squeezed, *blind]
-    if complete:
+    violations += overlaps
+    if len(overlaps) >= MOST_OVERLAPS:
+        return tuple(violations)
+    places, misplaced = place_openings(plan, walls_of(plan), unknown)
+    violations += [*_cramped(plan), *misplaced]
+    violations += [fault for place in places if (fault := _squeezed(plan, place)) is not None]
+    violations += _blind_windows(plan, places)
+    if unknown is None and not openings_missing:
         violations += _unreachable(plan, places)
     return tuple(violations)
 
 
 def _duplicates(plan: FloorPlan) -> list[Violation]:
-    seen: dict[str, str] = {}
+    seen: set[str] = set()
     violations = []
     for room in plan.rooms:
-        other = seen.setdefault(room.id.casefold(), room.id)
-        if other is not room.id or (violations and other == violations[-1].room):
-            violations.append(
-                Violation(room.id, "duplicate_id", f"another room is called {other!r}; case does not tell rooms apart")
-            )
+        if room.id.casefold() in seen:
+            violations.append(Violation(room.id, "duplicate_id", "an earlier room has this id; case does not tell them apart"))
+        seen.add(room.id.casefold())
     return violations
 
 
 def _shape_fault(room: Room) -> Violation | None:
-    """What is wrong with the shape of one room on its own."""
-    if len(room.polygon) < 3:
-        return Violation(room.id, "zero_area", "floor_polygon has fewer than 3 different points")
+    """What is wrong with the polygon of one room on its own."""
+    if len(room.polygon) < 3 or shapely.MultiPoint(room.polygon).convex_hull.area < LEAST_AREA:
+        return Violation(room.id, "zero_area", f"floor_polygon covers less than {LEAST_AREA:g} m^2")
     polygon = shapely.Polygon(room.polygon)
     if not polygon.is_valid:
-        reason = shapely.is_valid_reason(polygon)
-        if abs(polygon.area) < LEAST_AREA and "Self-intersection" not in reason:
-            return Violation(room.id, "zero_area", f"floor_polygon has an area of {polygon.area:g} m^2")
-        return Violation(room.id, "self_intersection", f"floor_polygon is not simple: {reason}")
+        return Violation(room.id, "self_intersection", f"floor_polygon is not simple: {shapely.is_valid_reason(polygon)}")
     if polygon.area < LEAST_AREA:
-        return Violation(room.id, "zero_area", f"floor_polygon has an area of {polygon.area:g} m^2")
+        return Violation(room.id, "zero_area", f"floor_polygon covers less than {LEAST_AREA:g} m^2")
+    if polygon.buffer(-BODY).is_empty:
+        return Violation(room.id, "room_too_small", f"no disk of {BODY:g} m radius fits into floor_polygon")
     return None
+
+
+def _unknown(broken: list[Room], *, everywhere: bool) -> shapely.Geometry | None:
+    """Where there are rooms whose shape is not known; None where there are no such rooms."""
+    if everywhere:
+        return shapely.box(-1e6, -1e6, 1e6, 1e6)
+    if not broken:
+        return None
+    return shapely.union_all([shapely.MultiPoint(room.polygon).convex_hull.buffer(0.05) for room in broken])
 
 
 def _overlaps(plan: FloorPlan) -> list[Violation]:
     polygons = room_polygons(plan)
     # Moved in by half the tolerance, rooms that only touch within it have nothing in common.
     cores = shapely.buffer(polygons, -SHARED / 2 - 1e-6, join_style="mitre")
-    first, second = shapely.STRtree(cores).query(cores, predicate="intersects")
-    pairs = sorted({(int(a), int(b)) for a, b in zip(first, second) if a < b})
+    tree = shapely.STRtree(cores)
     violations = []
-    for a, b in pairs:
-        area = polygons[a].intersection(polygons[b]).area
-        violations.append(Violation(plan.rooms[a].id, "rooms_overlap", f"overlaps room {plan.rooms[b].id} by {area:.3g} m^2"))
+    for a, core in enumerate(cores):
+        for b in np.sort(tree.query(core, predicate="intersects")):
+            if b > a:
+                area = polygons[a].intersection(polygons[b]).area
+                violations.append(Violation(plan.rooms[a].id, "rooms_overlap", f"overlaps {plan.rooms[b].id} by {area:.3g} m^2"))
+            if len(violations) == MOST_OVERLAPS:
+                return violations
     return violations
 
 
-def _roomy(plan: FloorPlan) -> list[bool]:
-    floors = np.array([floor if floor is not None else shapely.Polygon() for floor in interiors(plan)])
-    return list(~shapely.is_empty(shapely.buffer(floors, -BODY)))
+def _cramped(plan: FloorPlan) -> list[Violation]:
+    violations = []
+    for room, floor in zip(plan.rooms, interiors(plan)):
+        if floor is None:
+            violations.append(Violation(room.id, "room_too_small", "its walls leave no floor in one piece"))
+        elif floor.buffer(-BODY).is_empty:
+            violations.append(Violation(room.id, "room_too_small", f"no disk of {BODY:g} m radius fits between its walls"))
+    return violations
 
 
 def _squeezed(plan: FloorPlan, place: Place) -> Violation | None:
-    """An opening that reaches into a corner's wall or into a ceiling, on either side."""
+    """An opening that reaches into a ceiling or into the wall of a corner, on either side."""
     room = plan.rooms[place.room]
     opening = room.openings[place.opening]
     name = describe(opening, place.opening)
     head = opening.sill_height + opening.height
-    sides = [place.room] if place.behind is None else [place.room, place.behind.room]
-    for side in sides:
+    for side in (place.room,) if place.behind is None else (place.room, place.behind.room):
         other = plan.rooms[side]
         if head > other.ceiling_height + 1e-9:
-            message = f"{name} reaches {head:g} m high; the ceiling of room {other.id} is at {other.ceiling_height:g} m"
+            message = f"{name} reaches {head:g} m high; the ceiling of {other.id} is at {other.ceiling_height:g} m"
             return Violation(room.id, "opening_off_wall", message)
-    for side in sides:
-        if not _before_face(plan, place, side):
-            corner = f"a corner of room {plan.rooms[side].id}"
-            message = f"{name} reaches into {corner}; keep it between the inner faces of the walls beside it"
+        floor = interiors(plan)[side]
+        # The edge of a floor may be off by SHARED where walls are not quite parallel, so look one to two SHARED beyond.
+        face = place.wall.thickness if side == place.room else -place.wall.thickness - place.gap
+        away = 1.0 if side == place.room else -1.0
+        before = _strip(place, face + away * SHARED, face + away * 2 * SHARED)
+        if floor is not None and before.difference(floor).area > 1e-6:
+            message = f"{name} reaches into a corner of {other.id}; keep it between the inner faces of the walls beside it"
             return Violation(room.id, "opening_off_wall", message)
     return None
 
 
-def _before_face(plan: FloorPlan, place: Place, side: int) -> bool:
-    """Whether the floor just inside the opening belongs to the interior of the room on that side."""
-    floor = interiors(plan)[side]
-    if floor is None:
-        return True  # said already: room_too_small
-    wall = place.wall
-    if side == place.room:
-        low, high = wall.thickness, wall.thickness + SHARED
-    else:
-        gap = place.behind.gap if place.behind is not None else 0.0
-        low, high = -wall.thickness - gap - SHARED, -wall.thickness - gap
-    strip = _strip(place, low, high)
-    return bool(strip.difference(floor).area <= 1e-6 * strip.area + SHARED * SHARED / 2 * (place.behind is not None))
-
-
 def _blind_windows(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation]:
     windows = [place for place in places if place.behind is None]
-    if not windows:
-        return []
-    polygons = room_polygons(plan)
-    views = np.array([_strip(place, -OUTLOOK, -SHARED) for place in windows])
-    window, blocked = shapely.STRtree(polygons).query(views, predicate="intersects")
+    tree = shapely.STRtree(room_polygons(plan))
     violations = []
-    for k in sorted(set(window.tolist())):
-        room = plan.rooms[windows[k].room]
-        others = sorted({plan.rooms[b].id for b in blocked[window == k]})
-        name = describe(room.openings[windows[k].opening], windows[k].opening)
-        message = f"{name} looks at room {', '.join(others)} less than {OUTLOOK:g} m away; windows look outside"
-        violations.append(Violation(room.id, "window_interior", message))
+    for place in windows:
+        room = plan.rooms[place.room]
+        view = _strip(place, -OUTLOOK, -SHARED).buffer(-SHARED / 4, join_style="mitre")
+        blocking = sorted(plan.rooms[k].id for k in tree.query(view, predicate="intersects"))
+        if blocking:
+            name = describe(room.openings[place.opening], place.opening)
+            message = f"{name} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; windows look outside"
+            violations.append(Violation(room.id, "window_interior", message))
     return violations
 
 
-def _strip(place: Place, low: float, high: float) -> shapely.Polygon:
-    """The rectangle over an opening from `low` to `high` metres inside its wall's line."""
+def _strip(place: Place, first: float, second: float) -> shapely.Polygon:
+    """The rectangle over an opening between two distances inside its wall's line, metres."""
     wall = place.wall
-    start, end = wall.start + place.low * wall.direction, wall.start + place.high * wall.direction
+    start, end = (wall.start + along * wall.direction for along in (place.low, place.high))
     return shapely.Polygon(
-        [start + low * wall.normal, end + low * wall.normal, end + high * wall.normal, start + high * wall.normal]
+        [p + inside * wall.normal for inside, ps in ((first, (start, end)), (second, (end, start))) for p in ps]
     )
 
 
@@ -191,9 +190,10 @@ def _unreachable(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation]:
             if component[room] < 0:
                 component[room] = seed
                 queue.extend(ways[room])
-    main = max(sorted(set(component)), key=component.count)
+    sizes = np.bincount(component, minlength=len(plan.rooms))
+    main = int(np.argmax(sizes))
     return [
-        Violation(room.id, "unreachable", f"no doors or passages lead to it from room {plan.rooms[main].id}")
+        Violation(room.id, "unreachable", f"no doors or passages lead to it from {plan.rooms[main].id}")
         for room, part in zip(plan.rooms, component)
         if part != main
     ]

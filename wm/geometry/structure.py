@@ -137,7 +137,8 @@ def _check_volume(plan: FloorPlan, vertices, faces, blocks: list[Prism], rooms: 
         expected -= portal.width * (portal.head - portal.sill) * (depth - glass)
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     volume = float(np.sum(a * np.cross(b, c))) / 6
-    if not abs(volume - expected) <= 1e-6 * max(expected, 1.0):
+    # Where shared walls are not quite parallel, a door's depth is a mean: 1e-5 m^3 each at most.
+    if not abs(volume - expected) <= 1e-4 + 1e-5 * len(portals(plan)) + 1e-9 * expected:
         raise RuntimeError(f"the structure has a volume of {volume:.6f} m^3 where the plan says {expected:.6f} m^3")
 
 

@@ -14,6 +14,7 @@ import shapely
 from wm.geometry.plan_records import FloorPlan
 
 SHARED = 0.01  # metres within which walls are one: the paper's tolerance
+_BATCH = 1024  # walls asked about at a time
 _STRAIGHT = 1e-6  # metres a point may lie off the line of its neighbours and still be on one wall
 
 
@@ -24,7 +25,12 @@ class Behind:
     room: int
     low: float  # metres along the wall
     high: float
-    gap: float  # signed distance of the other wall outside this one, within +-SHARED
+    gap_low: float  # signed distance of the other wall outside this one at `low`, within +-SHARED
+    gap_high: float  # and at `high`
+
+    def gap(self, along: float) -> float:
+        """The signed distance of the other wall outside this one, metres along it."""
+        return self.gap_low + (self.gap_high - self.gap_low) * (along - self.low) / (self.high - self.low)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -91,9 +97,7 @@ def _shared_stretches(room, start, direction, length) -> list[list[Behind]]:
     """For each wall, the stretches along which a wall of another room runs against it."""
     end = start + direction * length[:, None]
     lines = np.asarray(shapely.linestrings(np.stack([start, end], axis=1)))
-    i, j = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=SHARED)
-    apart = (room[i] != room[j]) & (np.sum(direction[i] * direction[j], axis=1) < -0.5)
-    i, j = i[apart], j[apart]
+    i, j = _facing(room, direction, lines)
     # Wall j in the frame of wall i: along it from `near` to `far` (it runs the other way), and how far outside it lies.
     near = np.sum((end[j] - start[i]) * direction[i], axis=1)
     far = np.sum((start[j] - start[i]) * direction[i], axis=1)
@@ -106,9 +110,20 @@ def _shared_stretches(room, start, direction, length) -> list[list[Behind]]:
     shared = (high - low > SHARED) & (np.abs(low_gap) <= tolerance) & (np.abs(high_gap) <= tolerance)
     behind: list[list[Behind]] = [[] for _ in room]
     for k in np.flatnonzero(shared):
-        gap = float(low_gap[k] + high_gap[k]) / 2
-        behind[i[k]].append(Behind(room=int(room[j[k]]), low=float(low[k]), high=float(high[k]), gap=gap))
+        behind[i[k]].append(Behind(int(room[j[k]]), float(low[k]), float(high[k]), float(low_gap[k]), float(high_gap[k])))
     return behind
+
+
+def _facing(room: np.ndarray, direction: np.ndarray, lines: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of walls of different rooms that run in opposite directions within SHARED of each other."""
+    tree = shapely.STRtree(lines)
+    pairs = []
+    for first in range(0, len(lines), _BATCH):  # bounds the memory that a hostile plan can ask for
+        i, j = tree.query(lines[first : first + _BATCH], predicate="dwithin", distance=SHARED)
+        i = i + first
+        apart = (room[i] != room[j]) & (np.sum(direction[i] * direction[j], axis=1) < -0.5)
+        pairs.append((i[apart], j[apart]))
+    return np.concatenate([i for i, _ in pairs]), np.concatenate([j for _, j in pairs])
 
 
 def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
