@@ -1,0 +1,95 @@
+"""What the image model is shown of the scaffold: the condition X (paper, "Mesh-Conditioned Image Synthesis").
+
+Objects carry their own colours under a headlight, so that their form reads; structure shows the texture accumulated so far,
+blended over depth by its alpha; all else is depth in grey, nearer is brighter, over one range for the whole scene (per view,
+one grey would mean different depths in different views). The variants of the paper's modality ablation leave out the wall
+texture, show objects as grey boxes, or have none.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from wm.geometry.camera import camera_rays
+from wm.geometry.mesh import BOX_COLOR
+from wm.geometry.sampling import sample_atlas
+from wm.schema import ConditionConfig, TextureSettings
+from wm.synth.backends import Condition
+from wm.types import OUTSIDE, Atlas, Camera, GBuffer, Mesh, SceneObject
+
+_DEFAULTS = ConditionConfig()
+_TEXTURE_DEFAULTS = TextureSettings()
+_AMBIENT = 0.4  # brightness of a surface seen edge-on; seen head-on it has its own colour
+
+
+def make_condition(
+    gbuffer: GBuffer,
+    camera: Camera,
+    atlas: Atlas | None,
+    mesh: Mesh,
+    objects: Sequence[SceneObject],
+    depth_range: tuple[float, float],
+    settings: ConditionConfig = _DEFAULTS,
+    texture: TextureSettings = _TEXTURE_DEFAULTS,
+) -> Condition:
+    """The condition X of one camera.
+
+    Args:
+      gbuffer: what the camera sees of the conditioning scaffold.
+      camera: the camera of that G-buffer.
+      atlas: the texture accumulated so far, None for none yet.
+      mesh: the conditioning scaffold itself: structure faces first, then those of `objects` in order (`assemble_scene`).
+      objects: the scaffold's objects; only the textured variant looks at them.
+      depth_range: (near, far) of the scene, metres.
+      settings: which signals are shown.
+      texture: how the atlas is read.
+
+    Raises:
+      ValueError: an unknown objects mode, an empty depth range, or objects that are not the mesh's.
+    """
+    if settings.objects not in ("textured", "boxes", "none"):
+        raise ValueError(f"condition.objects is {settings.objects!r}; choices: textured, boxes, none")
+    grey = depth_grey(gbuffer, depth_range)
+    rgb = np.repeat(grey[..., None], 3, axis=-1)
+    known = np.zeros(grey.shape, np.float32)
+    if settings.wall_texture and atlas is not None:
+        seen, known = sample_atlas(atlas, gbuffer, camera, texture)
+        rgb += known[..., None] * (seen - rgb)
+    if settings.objects != "none":
+        shown = gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE)
+        light = _headlight(gbuffer, camera)[shown][:, None]
+        if settings.objects == "textured":
+            rgb[shown] = light * _face_colors(mesh, objects)[gbuffer.face[shown]]
+            known[shown] = 1.0
+        else:
+            rgb[shown] = light * np.float32(BOX_COLOR)
+    return Condition(rgb=rgb, known=known, depth=gbuffer.depth)
+
+
+def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.ndarray, "h w"]:
+    """Depth as grey: 1 at the near end of the range, 0 at the far end, beyond it and where nothing is hit."""
+    near, far = depth_range
+    if not near < far:
+        raise ValueError(f"the scene's depth range must have near < far, got {near} .. {far}")
+    grey = np.clip((far - gbuffer.depth) / (far - near), 0, 1)
+    return np.where(gbuffer.hit, grey, 0).astype(np.float32)
+
+
+def _headlight(gbuffer: GBuffer, camera: Camera) -> np.ndarray:
+    rays = camera_rays(camera).reshape(gbuffer.normal.shape).astype(np.float32)
+    rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
+    facing = np.abs(np.einsum("hwi,hwi->hw", gbuffer.normal, rays))
+    return np.float32(_AMBIENT) + np.float32(1 - _AMBIENT) * facing
+
+
+def _face_colors(mesh: Mesh, objects: Sequence[SceneObject]) -> np.ndarray:
+    """[f, 3] float32 base colour of every face of an object; 0 for structure."""
+    counts = [len(o.faces) for o in objects]
+    owner = np.repeat(np.arange(len(objects), dtype=np.int32), counts)
+    structure = len(mesh.faces) - len(owner)
+    ordered = structure >= 0 and np.array_equal(mesh.face_object[structure:], owner)
+    if not ordered or (mesh.face_object[:structure] != OUTSIDE).any():
+        raise ValueError("the objects are not those of the mesh: it must hold structure faces, then each object's faces in order")
+    parts = [o.slot_colors[o.face_slot].astype(np.float32) for o in objects]
+    return np.concatenate([np.zeros((structure, 3), np.float32), *parts])

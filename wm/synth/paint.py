@@ -1,0 +1,236 @@
+"""Painting the scene: every view in turn is conditioned on the scaffold, generated, verified, and projected back into the
+texture.
+
+Per room, in the order of `paint_order`: condition X from the scaffold and the texture so far; image = Phi(X, reference, prompt;
+seed); verify; on failure again with another seed; after the last attempt the best one is kept where it agrees with the
+scaffold. Images are rounded to 8 bits before they are used for anything, so what is stored is exactly what went on, and a run
+that is fed its stored views back ends with the same bytes.
+
+Tiers of work: per scene, the atlas and the depth range; per view, one G-buffer (two where the conditioning scaffold is another);
+per attempt, one image and one depth estimate. Memory: the atlas, one view, and the room's finished images.
+"""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from wm.geometry.atlas import build_atlas
+from wm.geometry.camera import camera_quat, scale_camera
+from wm.geometry.raycast import RayScene, cast
+from wm.geometry.texture import accumulate
+from wm.schema import ConditionConfig, TextureSettings, VerifySettings
+from wm.synth.agreement import agreement
+from wm.synth.backends import DepthBackend, ImageBackend, ImageRequest
+from wm.synth.canny import depth_edges
+from wm.synth.condition import make_condition
+from wm.synth.order import paint_order
+from wm.synth.verify import verify
+from wm.types import Atlas, GBuffer, SceneObject, View
+
+_RANGE_SCALE = 1 / 8  # resolution at which the scene's depth range is looked up
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Scaffold:
+    """A structure with objects, ready to be cast: `scene.mesh` holds structure faces, then those of `objects` in order."""
+
+    scene: RayScene
+    objects: tuple[SceneObject, ...]
+
+
+@dataclasses.dataclass(frozen=True)
+class PaintSettings:
+    texture: TextureSettings = dataclasses.field(default_factory=TextureSettings)
+    condition: ConditionConfig = dataclasses.field(default_factory=ConditionConfig)
+    verify: VerifySettings = dataclasses.field(default_factory=VerifySettings)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class PaintedView:
+    """A finished view: all that a later run needs to go on as if it had painted it itself."""
+
+    rgb: np.ndarray  # [h, w, 3] uint8 sRGB
+    mask: np.ndarray  # [h, w] bool: pixels that may be used
+    recall: float | None  # depth-edge recall; None where the test was off, did not apply or had no estimate
+    attempts: int  # images generated
+    accepted: bool  # whether one passed; otherwise the mask says where the best one agrees
+    reference: str | None  # name of the view its style came from
+    condition: np.ndarray  # [h, w, 3] uint8, what the image model was shown
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class PaintSummary:
+    atlas: Atlas  # the accumulated texture
+    order: tuple[str, ...]  # view names as they were painted
+    yield_share: float  # share of the planned views that were accepted; 1 of none
+    atm: float | None  # mean attempts per accepted view; None where none was accepted
+
+
+def paint_scene(
+    views: Sequence[View],
+    scaffold: Scaffold,
+    conditioning: Scaffold,
+    image: ImageBackend,
+    depth: DepthBackend,
+    *,
+    prompt: Callable[[int], str],
+    seed: int,
+    load: Callable[[View], PaintedView | None],
+    store: Callable[[View, PaintedView], None],
+    settings: PaintSettings | None = None,
+    progress: Callable[[View, PaintedView], None] | None = None,
+) -> PaintSummary:
+    """Paint all views, room by room.
+
+    Args:
+      views: the planned views; of each room, those of kind "bootstrap" are painted first.
+      scaffold: the true one: occlusion and texture.
+      conditioning: the one that the image model is shown and held to; another than `scaffold` in the variants that replace
+        objects by boxes or leave them out. Its structure faces must be those of `scaffold`.
+      image, depth: the backends.
+      prompt: the words for a room, by its index.
+      seed: of the scene; each attempt's seed derives from (seed, the view's index, attempt).
+      load: what `store` was given for a view, now or by an earlier run; None for a view that is not finished.
+      store: keeps a finished view. It is called once a view, before anything builds on it.
+      settings: texture, condition and verification.
+      progress: called after each view.
+
+    Raises:
+      ValueError: the image backend returned something that is no image of the view's size.
+      RuntimeError: a view that was stored cannot be loaded.
+    """
+    settings = settings or PaintSettings()
+    atlas = build_atlas(scaffold.scene.mesh, settings.texture.texel_size)
+    depth_range = scene_depth_range(views, conditioning.scene) if views else (0.0, 1.0)
+    attempts: list[int] = []
+    done: list[int] = []
+    for room in sorted({view.room for view in views}):
+        members = [i for i, view in enumerate(views) if view.room == room]
+        members.sort(key=lambda i: views[i].kind != "bootstrap")
+        bootstraps = sum(views[i].kind == "bootstrap" for i in members)
+        steps = paint_order(_quats(views, members), _quats(views, done), bootstraps=bootstraps)
+        candidates = [*done, *members]
+        images: dict[int, np.ndarray] = {}
+        for step in steps:
+            index = members[step.view]
+            view = views[index]
+            gbuffer = cast(scaffold.scene, view.camera)
+            painted = load(view)
+            if painted is None:
+                shown = gbuffer if conditioning is scaffold else cast(conditioning.scene, view.camera)
+                condition = make_condition(
+                    shown,
+                    view.camera,
+                    atlas,
+                    conditioning.scene.mesh,
+                    conditioning.objects,
+                    depth_range,
+                    settings.condition,
+                    settings.texture,
+                )
+                reference = None if step.reference is None else candidates[step.reference]
+                style = None if reference is None else _image_of(views[reference], images.get(reference), load)
+                request = ImageRequest(condition=condition, reference=style, prompt=prompt(room), view=view, seed=0)
+                painted = _attempt(request, shown, image, depth, settings.verify, (seed, index))
+                painted = dataclasses.replace(painted, reference=None if reference is None else views[reference].name)
+                store(view, painted)
+            images[index] = painted.rgb
+            atlas = accumulate(
+                atlas, gbuffer, view.camera, _as_float(painted.rgb), room, settings.texture, usable=painted.mask
+            )
+            done.append(index)
+            if painted.accepted:
+                attempts.append(painted.attempts)
+            if progress is not None:
+                progress(view, painted)
+    return PaintSummary(
+        atlas=atlas,
+        order=tuple(views[i].name for i in done),
+        yield_share=len(attempts) / len(views) if views else 1.0,
+        atm=float(np.mean(attempts)) if attempts else None,
+    )
+
+
+def scene_depth_range(views: Sequence[View], scene: RayScene) -> tuple[float, float]:
+    """(nearest, farthest) depth that any of the views sees, metres: the range over which condition depth is shown."""
+    near, far = np.inf, -np.inf
+    for view in views:
+        gbuffer = cast(scene, scale_camera(view.camera, _RANGE_SCALE))
+        near = min(near, float(gbuffer.depth.min(initial=np.inf, where=gbuffer.hit)))
+        far = max(far, float(gbuffer.depth.max(initial=-np.inf, where=gbuffer.hit)))
+    return (near, far) if near < far else (0.0, max(far, 1.0))
+
+
+def attempt_seed(seed: int, view: int, attempt: int) -> int:
+    """The seed of one attempt at one view: stable, and different for every (seed, view, attempt)."""
+    return int(np.random.SeedSequence([seed, view, attempt]).generate_state(1)[0])
+
+
+def _attempt(
+    request: ImageRequest,
+    shown: GBuffer,
+    image: ImageBackend,
+    depth: DepthBackend,
+    settings: VerifySettings,
+    identity: tuple[int, int],
+) -> PaintedView:
+    """Generate until an image passes, or until the limit; then the attempt of the highest recall, where it agrees."""
+    edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
+    condition = _as_bytes(request.condition.rgb)
+    best: tuple[float, PaintedView, np.ndarray | None] | None = None
+    for attempt in range(max(settings.max_attempts, 1)):
+        request = dataclasses.replace(request, seed=attempt_seed(*identity, attempt))
+        result = image.generate(request)
+        _check(result.rgb, request)
+        rgb = _as_bytes(result.rgb)
+        result = dataclasses.replace(result, rgb=_as_float(rgb))
+        estimate = depth.estimate(result, seed=request.seed) if settings.enabled else None
+        verdict = verify(edges, estimate, settings)
+        painted = PaintedView(
+            rgb=rgb,
+            mask=np.ones(shown.hit.shape, bool),
+            recall=verdict.recall,
+            attempts=attempt + 1,
+            accepted=verdict.passed,
+            reference=None,
+            condition=condition,
+        )
+        if verdict.passed:
+            return painted
+        score = -1.0 if verdict.recall is None else verdict.recall
+        if best is None or score > best[0]:
+            best = (score, painted, estimate)
+    assert best is not None
+    mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
+    return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
+
+
+def _check(rgb: np.ndarray, request: ImageRequest) -> None:
+    expected = (request.view.camera.height, request.view.camera.width, 3)
+    if rgb.shape != expected:
+        raise ValueError(f"view {request.view.name}: the image backend returned shape {rgb.shape}, not {expected}")
+    if not np.isfinite(rgb).all():
+        raise ValueError(f"view {request.view.name}: the image backend returned an image that is not finite")
+
+
+def _image_of(view: View, rgb: np.ndarray | None, load: Callable[[View], PaintedView | None]) -> np.ndarray:
+    """A finished view's image, from this room's memory or from where it was stored."""
+    if rgb is None:
+        painted = load(view)
+        if painted is None:
+            raise RuntimeError(f"view {view.name} was stored but cannot be loaded as a style reference")
+        rgb = painted.rgb
+    return _as_float(rgb)
+
+
+def _quats(views: Sequence[View], indices: Sequence[int]) -> np.ndarray:
+    return np.array([camera_quat(views[i].camera) for i in indices]).reshape(-1, 4)
+
+
+def _as_bytes(rgb: np.ndarray) -> np.ndarray:
+    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
+
+
+def _as_float(rgb: np.ndarray) -> np.ndarray:
+    return rgb.astype(np.float32) / np.float32(255)

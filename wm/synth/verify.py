@@ -1,0 +1,74 @@
+"""Does a generated image keep the scaffold's structure? Depth-edge recall (paper, "Image Verification").
+
+recall = |E_M and dilate(E', delta)| / |E_M| with E_M the scaffold's depth edges and E' those of the depth estimated from the
+image. It counts missing structure only: things the model added are allowed. The paper does not say what follows when E_M is
+empty or no estimate can be had: here an empty E_M means that the test does not apply, and no estimate is no pass.
+"""
+
+import dataclasses
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from wm.schema import VerifySettings
+from wm.synth.canny import depth_edges
+
+_REFERENCE_WIDTH = 1376  # the paper's images, for which VerifySettings.dilation is given
+_LEAST_RADIUS = 2  # pixels: rasterisation alone moves an edge by one
+
+
+@dataclasses.dataclass(frozen=True)
+class Verdict:
+    """What verification says of one image."""
+
+    passed: bool
+    recall: float | None  # None where there was nothing to compare
+    reason: str  # one clause for people
+
+
+def verify(
+    scaffold_edges: Bool[np.ndarray, "h w"], estimate: Float[np.ndarray, "h w"] | None, settings: VerifySettings
+) -> Verdict:
+    """Judge an image by the depth estimated from it.
+
+    Args:
+      scaffold_edges: `depth_edges` of the scaffold's depth, made once a view.
+      estimate: depth up to scale and shift; None where the backend could not tell.
+      settings: thresholds; `enabled` False passes every image.
+    """
+    if not settings.enabled:
+        return Verdict(passed=True, recall=None, reason="verification is off")
+    if estimate is None or not np.isfinite(estimate).any():
+        return Verdict(passed=False, recall=None, reason="no depth could be estimated from the image")
+    edges = depth_edges(estimate, np.isfinite(estimate), low=settings.low, high=settings.high)
+    recall = edge_recall(scaffold_edges, edges, dilation_radius(settings, scaffold_edges.shape[1]))
+    if recall is None:
+        return Verdict(passed=True, recall=None, reason="the scaffold has no depth edges here: the test does not apply")
+    passed = recall >= settings.min_recall
+    return Verdict(passed=passed, recall=recall, reason=f"recall {recall:.3f} {'>=' if passed else '<'} {settings.min_recall:g}")
+
+
+def edge_recall(
+    scaffold_edges: Bool[np.ndarray, "h w"], image_edges: Bool[np.ndarray, "h w"], dilation: int
+) -> float | None:
+    """Share of the scaffold's edge pixels that have an edge of the image within `dilation` pixels; None if it has none."""
+    if not scaffold_edges.any():
+        return None
+    return float(dilate(image_edges, dilation)[scaffold_edges].mean())
+
+
+def dilation_radius(settings: VerifySettings, width: int) -> int:
+    """The tolerance in pixels of an image of this width."""
+    return max(_LEAST_RADIUS, round(settings.dilation * width / _REFERENCE_WIDTH))
+
+
+def dilate(edges: Bool[np.ndarray, "h w"], radius: int) -> Bool[np.ndarray, "h w"]:
+    """Pixels whose centre is within `radius` of an edge pixel's centre: a disk stamped on each of the (few) edge pixels."""
+    height, width = edges.shape
+    wide = width + 2 * radius
+    stamped = np.zeros((height + 2 * radius) * wide, bool)
+    i, j = np.nonzero(edges)
+    di, dj = np.nonzero(np.hypot(*np.mgrid[-radius : radius + 1, -radius : radius + 1]) <= radius)
+    for offset in di * wide + dj:
+        stamped[i * wide + j + offset] = True
+    return stamped.reshape(-1, wide)[radius : radius + height, radius : radius + width]
