@@ -104,7 +104,7 @@ def test_accepted(plan):
 
 def test_rooms_a_centimetre_apart_still_touch():
     plan = two_rooms()
-    moved = dataclasses.replace(plan.rooms[1], polygon=plan.rooms[1].polygon + [0.009, 0], openings=())
+    moved = dataclasses.replace(plan.rooms[1], polygon=plan.rooms[1].polygon + np.array([0.009, 0]), openings=())
     build_structure(checked(FloorPlan((plan.rooms[0], moved))))
 
 
@@ -175,6 +175,11 @@ def test_doors_to_a_broken_room_are_not_blamed():
 SQUARE = '"floor_polygon": [[0, 0], [4, 0], [4, 4], [0, 4]]'
 
 
+def square_with(fields: str, metadata: str = "{}") -> str:
+    """Plan text with one square room that has these fields."""
+    return f'{{"metadata": {metadata}, "rooms": [{{{fields}, {SQUARE}}}]}}'
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -193,18 +198,18 @@ SQUARE = '"floor_polygon": [[0, 0], [4, 0], [4, 4], [0, 4]]'
         ('{"rooms": [' + ",".join(["{}"] * 100_000) + "]}", [(None, "too_many")]),
         ('{"rooms": [7]}', [("rooms[0]", "type")]),
         ('{"rooms": [{"id": "a"}]}', [("a", "type")]),
-        ('{"rooms": [{"id": 1, "name": "x", %s}]}' % SQUARE, [("rooms[0]", "room_id")]),
-        ('{"rooms": [{"id": "../../etc", "name": "x", %s}]}' % SQUARE, [("rooms[0]", "room_id")]),
-        ('{"rooms": [{"id": "a", "name": "\\ud800", %s}]}' % SQUARE, [("a", "type")]),
+        (square_with('"id": 1, "name": "x"'), [("rooms[0]", "room_id")]),
+        (square_with('"id": "../../etc", "name": "x"'), [("rooms[0]", "room_id")]),
+        (square_with('"id": "a", "name": "\\ud800"'), [("a", "type")]),
         ('{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [1e999, 0], [4, 4]]}]}', [("a", "number")]),
         ('{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [1e9, 0], [1e9, 1e9]]}]}', [("a", "number")]),
         ('{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [1, true], [4, 4]]}]}', [("a", "type")]),
-        ('{"rooms": [{"id": "a", "ceiling_height": 1e9, %s}]}' % SQUARE, [("a", "number")]),
-        ('{"rooms": [{"id": "a", "ceiling_height": "3", %s}]}' % SQUARE, [("a", "type")]),
-        ('{"rooms": [{"id": "a", "openings": {}, %s}]}' % SQUARE, [("a", "type")]),
-        ('{"rooms": [{"id": "a", "openings": [{"type": ["door"]}, 3], %s}]}' % SQUARE, [("a", "opening_type"), ("a", "type")]),
+        (square_with('"id": "a", "ceiling_height": 1e9'), [("a", "number")]),
+        (square_with('"id": "a", "ceiling_height": "3"'), [("a", "type")]),
+        (square_with('"id": "a", "openings": {}'), [("a", "type")]),
+        (square_with('"id": "a", "openings": [{"type": ["door"]}, 3]'), [("a", "opening_type"), ("a", "type")]),
         (
-            '{"metadata": {"units": "feet", "wall_thickness": 9}, "rooms": [{"id": "a", %s}]}' % SQUARE,
+            square_with('"id": "a"', '{"units": "feet", "wall_thickness": 9}'),
             [(None, "units"), (None, "number")],
         ),
     ],
