@@ -15,13 +15,15 @@ GAIN = F32(1.6)
 """Brings gradient noise, whose extremes are rare, to a standard deviation of about 0.35."""
 
 
-def hash_cells(x: Int[np.ndarray, "..."], y: Int[np.ndarray, "..."], z: Int[np.ndarray, "..."] | int, seed: int) -> UInt32[np.ndarray, "..."]:
+def hash_cells(
+    x: Int[np.ndarray, "..."], y: Int[np.ndarray, "..."], z: Int[np.ndarray, "..."] | int, seed: int
+) -> UInt32[np.ndarray, "..."]:
     """A well mixed 32-bit hash of integer cells (Source: Ellis, "hash prospector", lowbias32)."""
     offset = (int(z) * 0x27D4EB2F + seed * 0x165667B1) & 0xFFFFFFFF if isinstance(z, int) else None
     h = x.astype(np.uint32) * np.uint32(0x9E3779B1)
-    h += y.astype(np.uint32) * np.uint32(0x85EBCA77)
+    h = h + y.astype(np.uint32) * np.uint32(0x85EBCA77)
     if offset is None:
-        h += np.asarray(z).astype(np.uint32) * np.uint32(0x27D4EB2F)
+        h = h + np.asarray(z).astype(np.uint32) * np.uint32(0x27D4EB2F)
         offset = (seed * 0x165667B1) & 0xFFFFFFFF
     h += np.uint32(offset)
     h ^= h >> np.uint32(16)

@@ -22,7 +22,9 @@ def textile(p: Points, finish: Finish, seed: int) -> Surface:
 def velvet(p: Points, finish: Finish, seed: int) -> Surface:
     """Pile brushed this way and that: broad patches take the sheen colour."""
     brushed = fbm((p.x, p.y, p.z), wavelength=0.22, octaves=3, footprint=p.footprint, seed=seed)
-    color = mix(ink(finish, 0), ink(finish, 1, shade=1.5), np.clip(F32(0.18) + F32(0.35) * brushed, 0, 1) * F32(0.6 * finish.contrast))
+    color = mix(
+        ink(finish, 0), ink(finish, 1, shade=1.5), np.clip(F32(0.18) + F32(0.35) * brushed, 0, 1) * F32(0.6 * finish.contrast)
+    )
     return Surface(albedo=color, roughness=finish.roughness)
 
 
@@ -31,8 +33,12 @@ def carpet(p: Points, finish: Finish, seed: int) -> Surface:
     tuft = max(finish.scale, 0.01)
     fleck = fbm((p.u, p.v), wavelength=2 * tuft, octaves=2, footprint=p.footprint, seed=seed)
     track = fbm((p.u, p.v * F32(0.6)), wavelength=0.5, octaves=2, footprint=p.footprint, seed=seed + 5)
-    color = mix(ink(finish, 0), ink(finish, 1, shade=0.75), np.clip(F32(0.3) + F32(0.45) * fleck, 0, 1) * F32(0.6 * finish.contrast))
-    return Surface(albedo=vary(color, 0.08 * track + 0.12 * stains(p, finish, seed=seed + 9)), roughness=1.0, height=fleck * F32(1e-3))
+    color = mix(
+        ink(finish, 0), ink(finish, 1, shade=0.75), np.clip(F32(0.3) + F32(0.45) * fleck, 0, 1) * F32(0.6 * finish.contrast)
+    )
+    return Surface(
+        albedo=vary(color, 0.08 * track + 0.12 * stains(p, finish, seed=seed + 9)), roughness=1.0, height=fleck * F32(1e-3)
+    )
 
 
 def tatami(p: Points, finish: Finish, seed: int) -> Surface:
@@ -46,7 +52,9 @@ def tatami(p: Points, finish: Finish, seed: int) -> Surface:
     inner = np.abs(across) - F32(width / 2)  # metres from the middle line of the mat
     rush = fbm((along, across * F32(0.06)), wavelength=0.03, octaves=2, footprint=p.footprint, seed=seed)
     slow = fbm((along, across), wavelength=0.6, octaves=2, footprint=p.footprint, seed=seed + 3)
-    color = vary(ink(finish, 0), finish.contrast * (0.06 * rush + 0.06 * slow) + piece_tone(2 * i + half, j, seed=seed, amount=0.06))
+    color = vary(
+        ink(finish, 0), finish.contrast * (0.06 * rush + 0.06 * slow) + piece_tone(2 * i + half, j, seed=seed, amount=0.06)
+    )
     edge_ = border(width / 2 - np.abs(inner), 0.07, p.footprint)
     return Surface(albedo=mix(color, ink(finish, 1, shade=0.3), F32(0.9) * edge_), roughness=0.9, height=F32(1e-3) * edge_)
 
@@ -60,7 +68,10 @@ def woven(p: Points, finish: Finish, seed: int) -> Surface:
     bulge = np.where(over, np.cos(dv * F32(np.pi / size)), np.cos(du * F32(np.pi / size)))
     shadow = (F32(1) - bulge) * visible(size, p.footprint) + F32(0.35) * (F32(1) - visible(size, p.footprint))
     color = mix(ink(finish, 0), ink(finish, 1, shade=0.4), F32(0.6 * finish.contrast) * shadow.astype(F32))
-    return Surface(albedo=vary(color, piece_tone(column, row, seed=seed, amount=0.1) * visible(size, p.footprint)), roughness=finish.roughness)
+    return Surface(
+        albedo=vary(color, piece_tone(column, row, seed=seed, amount=0.1) * visible(size, p.footprint)),
+        roughness=finish.roughness,
+    )
 
 
 def leather(p: Points, finish: Finish, seed: int) -> Surface:
@@ -69,5 +80,7 @@ def leather(p: Points, finish: Finish, seed: int) -> Surface:
     crease = fbm((p.x, p.y, p.z), wavelength=size, octaves=3, footprint=p.footprint, seed=seed)
     bloom = fbm((p.x, p.y, p.z), wavelength=0.3, octaves=2, footprint=p.footprint, seed=seed + 5)
     folds = np.exp(-np.abs(crease) * F32(10)) * visible(0.5 * size, p.footprint)
-    color = mix(vary(ink(finish, 0), 0.13 * finish.contrast * bloom), ink(finish, 1, shade=0.5), F32(0.45 * finish.contrast) * folds)
+    color = mix(
+        vary(ink(finish, 0), 0.13 * finish.contrast * bloom), ink(finish, 1, shade=0.5), F32(0.45 * finish.contrast) * folds
+    )
     return Surface(albedo=color, roughness=finish.roughness)

@@ -32,8 +32,17 @@ def stone_tiles(p: Points, finish: Finish, seed: int) -> Surface:
     column, row, du, dv = tile_grid(p, side, side)
     offset = random_cells(column, row, seed=seed)
     body = dataclasses.replace(p, x=p.x + offset * F32(9), y=p.y + offset * F32(5))
-    figure = finish if len(finish.colors) < 3 else dataclasses.replace(finish, colors=(finish.colors[0], finish.colors[2]), scale=0.3)
-    color = _marble_color(body, dataclasses.replace(figure, scale=0.3), seed + 3, ink(finish, 0), ink(finish, 2, shade=0.7), ink(finish, 2, shade=0.8))
+    figure = (
+        finish if len(finish.colors) < 3 else dataclasses.replace(finish, colors=(finish.colors[0], finish.colors[2]), scale=0.3)
+    )
+    color = _marble_color(
+        body,
+        dataclasses.replace(figure, scale=0.3),
+        seed + 3,
+        ink(finish, 0),
+        ink(finish, 2, shade=0.7),
+        ink(finish, 2, shade=0.8),
+    )
     color = vary(color, piece_tone(column, row, seed=seed + 2, amount=0.13 * finish.contrast))
     return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.008)
 
@@ -105,7 +114,9 @@ def mosaic(p: Points, finish: Finish, seed: int) -> Surface:
     color = mix(ink(finish, 0), ink(finish, 1, shade=0.5), ring.astype(F32))
     color = mix(color, ink(finish, 2, shade=0.3), star.astype(F32))
     color = vary(color, piece_tone(column, row, seed=seed + 2, amount=0.2 * finish.contrast) * visible(side, p.footprint))
-    return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.12 * side, joint_color=ink(finish, 0) * F32(0.75), relief=0.001)
+    return _jointed(
+        p, finish, seed, color, du, dv, side, side, joint=0.12 * side, joint_color=ink(finish, 0) * F32(0.75), relief=0.001
+    )
 
 
 def water_tiles(p: Points, finish: Finish, seed: int) -> Surface:
@@ -127,10 +138,14 @@ def concrete(p: Points, finish: Finish, seed: int) -> Surface:
     column, du = cells(p.u, 2 * lift)
     cloud = fbm((p.u, p.v), wavelength=0.7, octaves=4, footprint=p.footprint, seed=seed, gain=0.55)
     boards = fbm((p.u * F32(0.1), p.v), wavelength=0.12, octaves=2, footprint=p.footprint, seed=seed + 1)
-    color = vary(ink(finish, 0), finish.contrast * (0.10 * cloud + 0.05 * boards) + piece_tone(column, row, seed=seed + 2, amount=0.04))
+    color = vary(
+        ink(finish, 0), finish.contrast * (0.10 * cloud + 0.05 * boards) + piece_tone(column, row, seed=seed + 2, amount=0.04)
+    )
     stain = np.clip(fbm((p.u, p.v * F32(0.25)), wavelength=0.6, octaves=3, footprint=p.footprint, seed=seed + 5) - F32(0.1), 0, 1)
     color = mix(color, ink(finish, 1, shade=0.7), stain * F32(0.2 + 0.5 * finish.wear))
-    hole = np.clip((F32(0.018) - np.hypot(np.abs(du) - F32(0.5 * lift), dv)) / np.maximum(p.footprint, F32(1e-3)) + F32(0.5), 0, 1)
+    hole = np.clip(
+        (F32(0.018) - np.hypot(np.abs(du) - F32(0.5 * lift), dv)) / np.maximum(p.footprint, F32(1e-3)) + F32(0.5), 0, 1
+    )
     seam = np.maximum(joints(dv, lift, 0.008, p.footprint), joints(du, 2 * lift, 0.008, p.footprint))
     color = color * (F32(1) - F32(0.45) * np.maximum(hole, F32(0.6) * seam))
     return Surface(albedo=color.astype(F32), roughness=finish.roughness, height=F32(-2e-3) * seam)

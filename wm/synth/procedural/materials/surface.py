@@ -64,9 +64,7 @@ def vary(color: Float[np.ndarray, "3 _"], amount: Float[np.ndarray, "n"]) -> Flo
     return np.clip(color * np.maximum(F32(1) + amount, F32(0.05)), 0, 1).astype(F32)
 
 
-def border(
-    distance: Float[np.ndarray, "n"], width: float, footprint: float | Float[np.ndarray, "n"]
-) -> Float[np.ndarray, "n"]:
+def border(distance: Float[np.ndarray, "n"], width: float, footprint: float | Float[np.ndarray, "n"]) -> Float[np.ndarray, "n"]:
     """Coverage of a box one footprint wide, `distance` from the middle of a line of `width`."""
     box = np.maximum(footprint, F32(1e-4))
     overlap = np.minimum(distance + box / 2, width / 2) - np.maximum(distance - box / 2, -width / 2)
@@ -89,9 +87,7 @@ def tile_grid(
     return column, row, du, dv
 
 
-def piece_tone(
-    column: Int[np.ndarray, "n"], row: Int[np.ndarray, "n"], *, seed: int, amount: float
-) -> Float[np.ndarray, "n"]:
+def piece_tone(column: Int[np.ndarray, "n"], row: Int[np.ndarray, "n"], *, seed: int, amount: float) -> Float[np.ndarray, "n"]:
     """A tone in [-amount, amount] for each piece of a laid pattern."""
     return (random_cells(column, row, seed=seed) * F32(2) - F32(1)) * F32(amount)
 

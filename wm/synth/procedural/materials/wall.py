@@ -24,7 +24,9 @@ def paint(p: Points, finish: Finish, seed: int) -> Surface:
     """Flat paint with the roller's faint texture."""
     roller = fbm((p.u, p.v), wavelength=0.06, octaves=2, footprint=p.footprint, seed=seed)
     slow = fbm((p.u, p.v), wavelength=0.9, octaves=2, footprint=p.footprint, seed=seed + 3)
-    color = vary(ink(finish, 0), finish.contrast * (0.012 * roller + 0.025 * slow) + 0.08 * stains(p, finish, seed=seed + 6, size=1.2))
+    color = vary(
+        ink(finish, 0), finish.contrast * (0.012 * roller + 0.025 * slow) + 0.08 * stains(p, finish, seed=seed + 6, size=1.2)
+    )
     return Surface(albedo=color, roughness=finish.roughness, height=roller * F32(3e-4))
 
 

@@ -14,7 +14,10 @@ def wood(p: Points, finish: Finish, seed: int) -> Surface:
     base, grain = ink(finish, 0), ink(finish, 1, shade=0.55)
     figure = _grain(p, max(finish.scale, 0.012), seed)
     tint = fbm((p.x * F32(0.25), p.y, p.z), wavelength=0.35, octaves=2, footprint=p.footprint, seed=seed + 40)
-    color = vary(mix(base, grain, np.clip(0.28 + 0.42 * figure, 0, 1) * F32(finish.contrast)), 0.14 * tint + 0.15 * stains(p, finish, seed=seed + 9))
+    color = vary(
+        mix(base, grain, np.clip(0.28 + 0.42 * figure, 0, 1) * F32(finish.contrast)),
+        0.14 * tint + 0.15 * stains(p, finish, seed=seed + 9),
+    )
     return Surface(albedo=color, roughness=finish.roughness, height=figure * F32(2e-4))
 
 
@@ -111,7 +114,10 @@ def _laid(
     base, dark, grain = ink(finish, 0), ink(finish, 1, shade=0.35), ink(finish, 2, shade=0.55)
     figure = _grain(piece, 0.014, seed + 3)
     color = mix(base, grain, np.clip(0.22 + 0.34 * figure, 0, 1) * F32(finish.contrast))
-    color = vary(color, piece_tone(column, row, seed=seed + 2, amount=0.17 * finish.contrast) + tone + 0.2 * stains(p, finish, seed=seed + 5))
+    color = vary(
+        color,
+        piece_tone(column, row, seed=seed + 2, amount=0.17 * finish.contrast) + tone + 0.2 * stains(p, finish, seed=seed + 5),
+    )
     gap = 0.004 + 0.004 * finish.wear
     joint = np.maximum(joints(dv, width, gap, p.footprint), joints(du, length, gap, p.footprint))
     roughness = np.clip(F32(finish.roughness) + F32(0.08) * figure + F32(0.3) * joint, 0.05, 1).astype(F32)
@@ -129,4 +135,6 @@ def _panel(p: Points, finish: Finish, seed: int, inset: np.ndarray, column: np.n
     slope_in = np.clip(inset / bead, 0, 1)
     raised = np.clip((inset - field + F32(0.03)) / F32(0.03), 0, 1)
     height = F32(-0.012) * slope_in + F32(0.009) * raised
-    return Surface(albedo=mix(color, groove, np.clip(F32(0.55) * shadow, 0, 1)), roughness=finish.roughness, height=height.astype(F32))
+    return Surface(
+        albedo=mix(color, groove, np.clip(F32(0.55) * shadow, 0, 1)), roughness=finish.roughness, height=height.astype(F32)
+    )

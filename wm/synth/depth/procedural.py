@@ -1,0 +1,50 @@
+"""The offline depth model: the depth that was drawn, as a monocular estimator would report it.
+
+Relative depth is what such models give: an unknown scale and shift, a relative error that varies slowly over the image, and edges
+that are softer than the surfaces'.
+"""
+
+import dataclasses
+
+import numpy as np
+from jaxtyping import Float
+from scipy.ndimage import gaussian_filter
+
+from wm.schema import DepthConfig
+from wm.synth.backends import ImageResult, SceneContext
+
+_KNOT = 24.0  # pixels over which the error is correlated, at 688 wide
+
+
+@dataclasses.dataclass(frozen=True)
+class ProceduralDepth:
+    """The backend."""
+
+    config: DepthConfig
+
+    def estimate(self, result: ImageResult, *, seed: int) -> Float[np.ndarray, "h w"] | None:
+        """[h, w] float32 depth up to scale and shift, 0 where nothing was drawn; None for an image that carries no depth."""
+        if result.drawn_depth is None:
+            return None
+        rng = np.random.default_rng(np.random.SeedSequence([seed, 0xDE97]))
+        depth = result.drawn_depth.astype(np.float32)
+        drawn = depth > 0
+        soft = _softened(depth, drawn, self.config.softness)
+        noise = gaussian_filter(rng.normal(size=depth.shape), _KNOT * depth.shape[1] / 688, mode="nearest")
+        noise /= max(float(noise.std()), 1e-9)
+        scale, shift = np.exp(rng.normal() * 0.2), rng.uniform(0.0, 0.3)
+        estimate = scale * soft * (1 + self.config.noise * noise) + shift
+        return np.where(drawn, estimate, 0).astype(np.float32)
+
+
+def make(config: DepthConfig, context: SceneContext | None) -> ProceduralDepth:
+    """The offline depth backend; it needs nothing of the scene."""
+    return ProceduralDepth(config=config)
+
+
+def _softened(depth: np.ndarray, drawn: np.ndarray, sigma: float) -> np.ndarray:
+    """Depth blurred by `sigma` pixels among the pixels that were drawn."""
+    if sigma <= 0:
+        return depth
+    weight = gaussian_filter(drawn.astype(np.float32), sigma, mode="nearest")
+    return gaussian_filter(depth * drawn, sigma, mode="nearest") / np.maximum(weight, 1e-6)

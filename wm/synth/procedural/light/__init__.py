@@ -1,0 +1,20 @@
+"""Light of the procedural world: where it is stored, where it comes from, and how it gets there."""
+
+from wm.synth.procedural.light.bake import BakeSettings, LightField, LightPoints, bake
+from wm.synth.procedural.light.charts import RoomCharts, chart_places, luxel_positions, room_charts
+from wm.synth.procedural.light.facets import Facets, build_facets, facet_weights
+from wm.synth.procedural.light.sources import (
+    Emitter,
+    ceiling_emitters,
+    glow_color,
+    lamp_emitters,
+    pane_emitters,
+    soften,
+    sun_direction,
+)
+
+__all__ = [
+    "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "RoomCharts", "bake", "build_facets", "ceiling_emitters",
+    "chart_places", "facet_weights", "glow_color", "lamp_emitters", "luxel_positions", "pane_emitters", "room_charts", "soften",
+    "sun_direction",
+]  # fmt: skip

@@ -1,0 +1,174 @@
+"""The exact offline world of a scene: every room dressed and lit, seen from any camera.
+
+What a surface looks like does not depend on where it is seen from (glosses reflect for the middle of the room), so that gaussians
+without view-dependence can show it. Tiers of work: per scene one BVH; per room, when first seen, one bake (wm.synth.procedural.room);
+per view one cast, a texture look-up per pixel, and more samples in the pixels where surfaces meet.
+"""
+
+import collections
+import dataclasses
+import threading
+
+import numpy as np
+
+from wm.geometry.camera import camera_center, camera_rays
+from wm.geometry.mesh import assemble_scene
+from wm.geometry.raycast import build_ray_scene, cast, cast_rays
+from wm.synth.backends import SceneContext
+from wm.synth.procedural.color import tone
+from wm.synth.procedural.light import BakeSettings, chart_places, facet_weights, sun_direction
+from wm.synth.procedural.pieces import look
+from wm.synth.procedural.pyramid import sample_pyramid
+from wm.synth.procedural.room import BakedRoom, bake_room
+from wm.synth.procedural.style import style_of
+from wm.types import OUTSIDE, Camera, GBuffer
+
+KEPT = 32
+"""Rooms kept baked; the least recently seen go first."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Shot:
+    """What the world shows a camera."""
+
+    rgb: np.ndarray  # [h, w, 3] float32 sRGB
+    gbuffer: GBuffer  # of pixel centres
+    object: np.ndarray  # [h, w] int32 object at each pixel, OUTSIDE for structure
+
+
+class World:
+    """A scene's appearance. Thread-safe; the same context gives the same bytes whatever was asked before."""
+
+    def __init__(self, context: SceneContext, *, supersampling: int = 2, settings: BakeSettings | None = None):
+        self._plan, self._objects, self._seed = context.plan, context.objects, context.seed
+        self._settings = settings if settings is not None else BakeSettings()
+        self._style = style_of(context.theme)
+        self._supersampling = supersampling
+        self.mesh = assemble_scene(context.structure, context.objects)
+        self._scene = build_ray_scene(self.mesh)
+        self._sun = sun_direction(self.mesh, self._style.light)
+        self._surface = self._surface_ids()
+        self._rooms: collections.OrderedDict[int, BakedRoom] = collections.OrderedDict()
+        self._lock = threading.RLock()
+
+    def room(self, index: int) -> BakedRoom:
+        """A room's textures and light, baked now if they are not at hand."""
+        with self._lock:
+            if index not in self._rooms:
+                self._rooms[index] = bake_room(
+                    self._scene, self._plan, index, self._objects, self._style,
+                    sun=self._sun, seed=self._seed, settings=self._settings,
+                )  # fmt: skip
+                while len(self._rooms) > KEPT:
+                    self._rooms.popitem(last=False)
+            self._rooms.move_to_end(index)
+            return self._rooms[index]
+
+    def shoot(self, camera: Camera) -> Shot:
+        """The image of a camera: one sample a pixel, supersampling^2 where surfaces meet."""
+        gbuffer = cast(self._scene, camera)
+        shape = gbuffer.depth.shape
+        directions = camera_rays(camera).reshape(-1, 3).astype(np.float32)
+        face = gbuffer.face.ravel()
+        rgb = self._shade(camera, face, gbuffer.barycentric.reshape(-1, 2), gbuffer.depth.ravel(), directions)
+        if self._supersampling > 1:
+            edges = np.flatnonzero(self._edges(gbuffer).ravel())
+            rgb[edges] = self._supersampled(camera, edges)
+        thing = np.append(self.mesh.face_object, np.int32(OUTSIDE))[face]
+        return Shot(rgb=rgb.reshape(*shape, 3), gbuffer=gbuffer, object=thing.reshape(shape))
+
+    def _supersampled(self, camera: Camera, pixels: np.ndarray) -> np.ndarray:
+        """[k, 3] mean colour of a regular grid of samples in each pixel."""
+        n = self._supersampling
+        row, column = np.divmod(pixels, camera.width)
+        offset = (np.arange(n) + 0.5) / n
+        x = (column[:, None, None] + offset[None, None, :] - camera.principal[0]) / camera.focal[0]
+        y = (row[:, None, None] + offset[None, :, None] - camera.principal[1]) / camera.focal[1]
+        x, y = np.broadcast_arrays(x, y)
+        R_world_cam = np.asarray(camera.T_cam_world)[:3, :3].T
+        directions = np.stack([x.ravel(), y.ravel(), np.ones(x.size)], axis=1) @ R_world_cam.T
+        origins = np.broadcast_to(camera_center(camera), directions.shape)
+        hits = cast_rays(self._scene, np.ascontiguousarray(origins), directions)
+        depth = np.where(hits.hit, hits.t, 0).astype(np.float32)
+        colors = self._shade(camera, hits.face, hits.barycentric, depth, directions.astype(np.float32))
+        return colors.reshape(len(pixels), n * n, 3).mean(axis=1)
+
+    def _shade(
+        self, camera: Camera, face: np.ndarray, barycentric: np.ndarray, depth: np.ndarray, directions: np.ndarray
+    ) -> np.ndarray:
+        """[n, 3] colour of hits; black where nothing or no room is hit."""
+        rgb = np.zeros((len(face), 3), np.float32)
+        room = np.append(self.mesh.face_room, np.int32(OUTSIDE))[face]
+        normal = self._scene.normals[face]
+        length = np.sqrt(np.einsum("ni,ni->n", directions, directions))
+        cosine = np.clip(np.abs(np.einsum("ni,ni->n", directions, normal)) / length, 0.05, 1)
+        across = depth * length * np.float32(1 / camera.focal[1])  # metres that a pixel spans, seen straight on
+        for index in np.unique(room[room >= 0]):
+            baked = self.room(int(index))
+            here = room == index
+            flat = np.flatnonzero(here & (baked.charts.face_slot[face] >= 0))
+            rgb[flat] = self._structure(baked, face[flat], barycentric[flat], across[flat], cosine[flat], directions[flat])
+            solid = np.flatnonzero(here & (baked.facet_faces[face] >= 0))
+            rgb[solid] = self._solid(baked, face[solid], barycentric[solid], across[solid] / np.sqrt(cosine[solid]))
+        return rgb
+
+    def _structure(
+        self,
+        baked: BakedRoom,
+        face: np.ndarray,
+        barycentric: np.ndarray,
+        across: np.ndarray,
+        cosine: np.ndarray,
+        directions: np.ndarray,
+    ) -> np.ndarray:
+        """Textures of walls and floors: two probes along the direction in which a slanting pixel is long."""
+        chart, s, t = chart_places(baked.charts, face, barycentric)
+        atlas = baked.charts.atlas
+        along_u = np.einsum("ni,ni->n", directions, atlas.chart_u.astype(np.float32)[chart])
+        along_v = np.einsum("ni,ni->n", directions, atlas.chart_v.astype(np.float32)[chart])
+        length = np.maximum(np.hypot(along_u, along_v), 1e-6)
+        major = across / cosine
+        footprint = np.maximum(across, 0.5 * major)
+        step = 0.25 * np.maximum(major - across, 0) / length
+        near = sample_pyramid(baked.textures, chart, s - step * along_u, t - step * along_v, footprint)
+        slanting = np.flatnonzero(cosine < 0.8)
+        far = sample_pyramid(
+            baked.textures, chart[slanting], (s + step * along_u)[slanting], (t + step * along_v)[slanting], footprint[slanting]
+        )
+        near[slanting] = 0.5 * (near[slanting] + far)
+        return near
+
+    def _solid(self, baked: BakedRoom, face: np.ndarray, barycentric: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+        """Objects: material evaluated at the hit, light from the corners of the facet around it."""
+        if len(face) == 0:
+            return np.zeros((0, 3), np.float32)
+        local = baked.facet_faces[face]
+        points, weights = facet_weights(baked.facets, local, barycentric)
+        light = np.einsum("nk,nkc->nc", weights, baked.light[points])
+        seen = look(baked.pieces, local, barycentric, footprint)
+        return tone(seen.albedo * light[:, :3] + seen.mirror * light[:, 3:] + seen.emission)
+
+    def _surface_ids(self) -> np.ndarray:
+        """[f + 1] a number per surface: structure by room and kind, objects by object and slot; the last is for misses."""
+        mesh = self.mesh
+        ids = (mesh.face_room + 1) * 8 + mesh.face_kind
+        slot = np.concatenate(
+            [np.zeros(int((mesh.face_object == OUTSIDE).sum()), np.int32), *(o.face_slot for o in self._objects)]
+        )
+        ids = np.where(mesh.face_object == OUTSIDE, ids, 1_000_000 + mesh.face_object * 64 + slot)
+        return np.append(ids, -1)
+
+    def _edges(self, gbuffer: GBuffer) -> np.ndarray:
+        """[h, w] bool: pixels beside another surface, a crease, or a jump in depth."""
+        ids = self._surface[gbuffer.face]
+        edges = np.zeros(ids.shape, bool)
+        for axis in (0, 1):
+            first, second = ([slice(None)] * 2 for _ in range(2))
+            first[axis], second[axis] = slice(None, -1), slice(1, None)
+            a, b = tuple(first), tuple(second)
+            crease = np.einsum("hwc,hwc->hw", gbuffer.normal[a], gbuffer.normal[b]) < 0.97
+            jump = np.abs(gbuffer.depth[a] - gbuffer.depth[b]) > 0.1 * np.minimum(gbuffer.depth[a], gbuffer.depth[b])
+            differ = (ids[a] != ids[b]) | crease | jump
+            edges[a] |= differ
+            edges[b] |= differ
+        return edges
