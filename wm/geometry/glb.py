@@ -81,8 +81,8 @@ def _encode(nodes: Iterable[GlbNode]) -> bytes:
 
 def _check(node: GlbNode) -> None:
     where = f"GLB node {node.name!r}"
-    if not np.isfinite(node.vertices).all():
-        raise ValueError(f"{where}: a vertex is not finite")
+    if not (np.abs(node.vertices) <= np.finfo(np.float32).max).all():
+        raise ValueError(f"{where}: a vertex is not finite in float32")
     if len(node.faces) and not (node.faces.min() >= 0 and node.faces.max() < len(node.vertices)):
         raise ValueError(f"{where}: a face refers to a vertex that is not there ({len(node.vertices)} vertices)")
     if (node.uv is None) != (node.texture is None):
@@ -91,6 +91,8 @@ def _check(node: GlbNode) -> None:
         raise ValueError(f"{where}: uv must be finite and [{len(node.vertices)}, 2]; it is {node.uv.shape}")
     if node.texture is not None and (node.texture.dtype != np.uint8 or node.texture.ndim != 3 or node.texture.shape[2] != 3):
         raise ValueError(f"{where}: texture must be uint8 [h, w, 3]; it is {node.texture.dtype} {node.texture.shape}")
+    if node.base_color is not None and (np.shape(node.base_color) != (3,) or not np.isfinite(node.base_color).all()):
+        raise ValueError(f"{where}: base_color must be three finite numbers; it is {node.base_color}")
     if not (np.isfinite(node.emission) and node.emission >= 0):
         raise ValueError(f"{where}: emission is {node.emission}; it must be finite and not negative")
 
