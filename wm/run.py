@@ -13,7 +13,7 @@ import importlib
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import Field, fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from wm.schema import RunConfig
 from wm.validate import ConfigError, validate_config
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+_SAID = "said on stderr"
 
 _PACKAGE = Path(__file__).resolve().parent
 CONF = next(folder for folder in (_PACKAGE.parent / "conf", _PACKAGE / "conf") if (folder / "config.yaml").is_file())
@@ -47,7 +48,7 @@ def main() -> None:
     except Exception as error:
         if debug:
             raise
-        if not getattr(error, "was_said", False):
+        if _SAID not in getattr(error, "__notes__", ()):
             _say(explain(error))
         sys.exit(_exit_code(error))
 
@@ -120,7 +121,7 @@ def _run_one(composed: DictConfig) -> None:
     except Exception as error:
         if HydraConfig.get().mode == RunMode.MULTIRUN and not composed.debug:
             _say(f"{folder}: {explain(error)}")  # the others of the sweep go on; Hydra reports only the first failure
-            error.was_said = True  # type: ignore[attr-defined]
+            error.add_note(_SAID)
             raise
         if composed.debug:
             raise
@@ -146,18 +147,25 @@ def _exit_code(error: BaseException) -> int:
 
 def _unknown_keys(node: DictConfig, record: type, prefix: str) -> Iterator[str]:
     known = {field.name: field for field in fields(record)}
-    for name in node:
+    for name in map(str, node):
         if name not in known:
             yield f"{prefix}{name}"
-        elif isinstance(known[name].default_factory, type) and is_dataclass(known[name].default_factory):
-            yield from _unknown_keys(node[name], known[name].default_factory, f"{prefix}{name}.")
+        elif (inner := _record_of(known[name])) is not None:
+            yield from _unknown_keys(node[name], inner, f"{prefix}{name}.")
+
+
+def _record_of(field: Field) -> type | None:
+    """The dataclass that a field of the schema holds, None where it holds a plain value."""
+    made = field.default_factory
+    return made if isinstance(made, type) and is_dataclass(made) else None
 
 
 def _unknown_key(key: str) -> str:
-    record, prefix, name = RunConfig, "", key
+    record: type = RunConfig
+    prefix, name = "", key
     for part in key.split(".")[:-1]:
-        inner = next((field.default_factory for field in fields(record) if field.name == part), None)
-        if not (isinstance(inner, type) and is_dataclass(inner)):
+        inner = next((_record_of(field) for field in fields(record) if field.name == part), None)
+        if inner is None:
             name = part
             break
         record, prefix, name = inner, f"{prefix}{part}.", key.rpartition(".")[2]

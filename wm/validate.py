@@ -92,15 +92,17 @@ def validate_config(config: RunConfig, *, backends: Mapping[str, tuple[str, ...]
     """
     values = dict(_leaves(config))
     choices = dict(CHOICES) | {f"{group}.name": names for group, names in backends.items()}
-    problems = [f"{key}={values[key]!r}: choose one of {', '.join(names)}" for key, names in choices.items() if values[key] not in names]
+    wrong = {key: names for key, names in choices.items() if values[key] not in names}
+    problems = [f"{key}={values[key]!r}: choose one of {', '.join(names)}" for key, names in wrong.items()]
     for key, (low, high) in RANGES.items():
         if not _within(values[key], low, high):
             problems.append(f"{key}={values[key]!r}: must be a number from {low:g} to {high:g}")
     problems += _scene_problems(config)
     if config.verify.low > config.verify.high:
         problems.append(f"verify.low={config.verify.low!r}: must not exceed verify.high={config.verify.high!r}")
-    if config.raster.alpha_min >= config.raster.alpha_max:
-        problems.append(f"raster.alpha_min={config.raster.alpha_min!r}: must be below raster.alpha_max={config.raster.alpha_max!r}")
+    low, high = config.raster.alpha_min, config.raster.alpha_max
+    if low >= high:
+        problems.append(f"raster.alpha_min={low!r}: must be below raster.alpha_max={high!r}")
     if problems:
         raise ConfigError("; ".join(problems))
 

@@ -37,16 +37,16 @@ def image_prompt(theme: str, room: str, sights: Sequence[str] = (), *, has_refer
     """
     parts = [
         f"A photograph taken inside the {room} of this place: {theme}.",
-        "The guide image fixes the geometry: camera, walls, openings and furniture stay exactly where it shows them, at the same "
-        "size and angle. Where the guide is in colour, those surfaces are already decided, so keep their colours and materials "
-        "and draw them crisply; where it is grey it shows distance only (nearer is brighter), so choose materials that suit the place.",
+        "The guide image fixes the geometry: camera, walls, openings and furniture stay exactly where it shows them, at the "
+        "same size and angle. Where the guide is in colour, those surfaces are already decided, so keep their colours and "
+        "materials and draw them crisply; where it is grey it shows distance only, so choose materials that suit the place.",
     ]
     if sights:
         parts.append(f"In view: {'; '.join(sights)}.")
     if has_reference:
         parts.append(
-            "The second picture is another photograph from the same building. Match its materials, palette and light, but not its "
-            "viewpoint, and take no object from it that the guide does not have."
+            "The second picture is another photograph from the same building. Match its materials, palette and light, but not "
+            "its viewpoint, and take no object from it that the guide does not have."
         )
     parts.append("No people, no lettering, no frame; natural exposure, everything in focus.")
     return "\n\n".join(parts)
@@ -64,13 +64,13 @@ def plan_prompt(theme: str, rooms: Sequence[str], violations: Sequence[str] = ()
     listed = "\n".join(f"- {room}" for room in rooms)
     parts = [
         f"Design one storey of a building. Theme: {theme}.",
-        f"It has these rooms, each exactly once per line:\n{listed}\nYou may add corridors or halls that connect them, nothing else.",
+        f"It has these rooms, one for each line:\n{listed}\nYou may add corridors or halls that connect them, nothing else.",
         "Answer with one JSON object and no other text, in this form (the remarks are not part of it):\n" + plan_format,
-        "Neighbouring rooms share their wall's line exactly and never overlap; there are no gaps between them. The outline of a room "
-        "is the middle of a shared wall and the outer face of an outside wall. Doors and passages lie where two rooms touch, "
-        "windows where nothing is behind the wall. Keep 0.3 m of wall beside every opening and between openings, and every opening "
-        "below the ceiling. One can walk from every room to every other. Sizes suit the use of the room and the theme; most rooms "
-        "have windows; the whole is compact.",
+        "Neighbouring rooms share their wall's line exactly and never overlap; there are no gaps between them. The outline of a "
+        "room is the middle of a shared wall and the outer face of an outside wall. Doors and passages lie where two rooms "
+        "touch, windows where nothing is behind the wall. Keep 0.3 m of wall beside every opening and between openings, and "
+        "every opening below the ceiling. One can walk from every room to every other. Sizes suit the use of the room and the "
+        "theme; most rooms have windows; the whole is compact.",
     ]
     if violations:
         faults = "\n".join(f"- {violation}" for violation in violations)

@@ -33,7 +33,7 @@ class Grammar:
             spaces, polygons, ceilings = kept
         else:
             spaces = read_programme(rooms, building, rng)
-            polygons = draft(spaces, building, rng)
+            spaces, polygons = draft(spaces, building, rng)
             ceilings = _ceilings(spaces, building, rng)
         holes = place_openings(polygons, spaces, ceilings, building, rng)
         return _as_json(spaces, polygons, ceilings, holes)

@@ -91,13 +91,13 @@ def _usable(stretch: Stretch, margin: int) -> int:
 def _tree(shared: Sequence[Stretch], spaces: Sequence[Space], rng: np.random.Generator) -> list[Stretch]:
     """The walls that doors must go through to reach every room from the first hub, by the most natural ways (Prim)."""
     hub = min(range(len(spaces)), key=lambda i: (spaces[i].kind.zone != CIRCULATION, spaces[i].kind.rank, i))
-    costs = {k: _awkward(stretch, spaces) + 0.5 * rng.random() for k, stretch in enumerate(shared) if _usable(stretch, TIGHT) >= 90}
+    costs = [_awkward(stretch, spaces) + 0.5 * rng.random() for stretch in shared]
     reached, tree = {hub}, []
     while True:
-        ways = [(cost, k) for k, cost in costs.items() if len(_rooms(shared[k]) & reached) == 1]
+        ways = [k for k, way in enumerate(shared) if len(_rooms(way) & reached) == 1 and _usable(way, TIGHT) >= 90]
         if not ways:
             return tree
-        best = shared[min(ways)[1]]
+        best = shared[min(ways, key=costs.__getitem__)]
         tree.append(best)
         reached |= _rooms(best)
 
@@ -140,7 +140,7 @@ def _door(
     width = min(width, usable)
     low, high = stretch.low + margin, stretch.high - margin - width
     corners = [low, high] if kind == "door" else [(low + high) // 10 * 5, low, high]
-    spare = [low + (high - low) * k // 40 * 5 for k in range(1, 8)]  # fmt: skip
+    spare = [low + (high - low) * k // 40 * 5 for k in range(1, 8)]
     tries = [*corners, *[min(max(at, low), high) for at in spare]]
     costs = [
         _disturbs(stretch, at, at + width, holes) + (0.0 if k < len(corners) else 0.6) + 0.3 * float(rng.random())
@@ -211,4 +211,5 @@ def _open_air(stretch: Stretch, shapes: np.ndarray) -> bool:
     low, high = (near, stretch.low + 1), (far, stretch.high - 1)
     if side.axis == 1:
         low, high = low[::-1], high[::-1]
-    return not shapely.intersects(shapes, shapely.box(*low, *high)).any()
+    before = shapely.box(low[0], low[1], high[0], high[1])
+    return not shapely.intersects(shapes, before).any()

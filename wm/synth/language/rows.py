@@ -15,6 +15,7 @@ from wm.synth.language.programme import SERVICE, WET, Space
 LIMB = 240  # cm between wall centre lines: 2 m and a little more is left inside
 NARROWEST = 290  # cm of frontage of a room that is not small
 DEEPEST, SHALLOWEST = 640, 290
+STEP = 80  # cm: the least difference in depth between neighbours
 
 Rect = tuple[int, int, int, int]
 """x0, y0, x1, y1 in cm."""
@@ -98,13 +99,17 @@ def lay_row(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Gener
         slot = _lay_cell(cell, spaces, u, depth, rng)
         slots.append(slot)
         u += slot.width
+    for k, slot in enumerate(slots):  # a step in the outer wall is worth building or it is not made
+        beside = [other.depth for other in slots[max(k - 1, 0) : k + 2] if 0 < abs(other.depth - slot.depth) < STEP]
+        if beside and slot.corner is None:
+            slots[k] = dataclasses.replace(slot, depth=beside[0])
     return Row(tuple(slots))
 
 
 def stretch(row: Row, length: int) -> Row:
     """The row made exactly this long; small rooms keep their size, the others share the difference."""
     widths = [slot.width for slot in row.slots]
-    weights = [float(width) if slot.corner is not None or width >= NARROWEST else 0.25 * width for slot, width in zip(row.slots, widths)]
+    weights = [width if width >= NARROWEST else 0.25 * width for width in widths]
     slack = length - sum(widths)
     ends = np.round(np.cumsum(weights) / sum(weights) * slack / 10).astype(int) * 10
     slots, u = [], 0
@@ -160,4 +165,4 @@ def _without_corner(whole: Rect, corner: Rect) -> list[Rect]:
 
 def _clip(value: float, low: float, high: float) -> int:
     """To whole decimetres within the limits."""
-    return int(round(min(max(value, low), max(low, high)) / 10)) * 10
+    return round(float(min(max(value, low), max(low, high))) / 10) * 10
