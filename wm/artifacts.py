@@ -119,6 +119,10 @@ class RunFolder:
             write_atomically(self.path / relative, write)
         self.record(name, key, list(files))
 
+    def write(self, relative: str, content: Writer | bytes | str) -> None:
+        """Writes a file that belongs to no entry, because it depends on the clock; atomically all the same."""
+        write_atomically(self.path / relative, content)
+
     def record(self, name: str, key: str, relatives: list[str]) -> None:
         """Records an entry whose files are already in place."""
         digests = {relative: file_digest(self.path / relative) for relative in sorted(relatives)}

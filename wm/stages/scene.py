@@ -1,0 +1,119 @@
+"""Plan, structure, furniture and cameras: everything that is fixed before anything is painted."""
+
+import dataclasses
+import json
+import pathlib
+
+from wm import codecs
+from wm.artifacts import file_digest, json_text
+from wm.geometry import (
+    FloorPlan,
+    RayScene,
+    assemble_scene,
+    build_ray_scene,
+    build_structure,
+    load_plan,
+    parse_plan,
+    place_cameras,
+    place_heldout,
+    plan_to_json,
+)
+from wm.stages.job import Job
+from wm.synth.backends import SceneContext, make_backend
+from wm.synth.language.propose import propose_plan
+from wm.types import Mesh, SceneObject, View
+
+PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Scene:
+    """The scaffold and its cameras."""
+
+    plan: FloorPlan
+    context: SceneContext
+    mesh: Mesh  # structure and objects
+    rays: RayScene
+    views: tuple[View, ...]
+    heldout: tuple[View, ...]
+    key: str
+
+    @property
+    def objects(self) -> tuple[SceneObject, ...]:
+        return self.context.objects
+
+    @property
+    def rooms(self) -> list[str]:
+        return [room.id for room in self.plan.rooms]
+
+
+def build_scene(job: Job) -> Scene:
+    """The scene of a run, from its folder where it is there already."""
+    with job.stage("plan"):
+        plan, plan_key = _plan(job)
+    with job.stage("structure"):
+        structure = build_structure(plan)
+        context = SceneContext(theme=job.config.scene.theme, seed=job.config.seed, plan=plan, structure=structure, objects=())
+    with job.stage("furnish"):
+        objects, key = _furnish(job, context, plan_key)
+        context = dataclasses.replace(context, objects=objects)
+        mesh = assemble_scene(structure, objects)
+        rays = build_ray_scene(mesh)
+    with job.stage("cameras"):
+        views, heldout = _cameras(job, plan, mesh)
+    return Scene(plan=plan, context=context, mesh=mesh, rays=rays, views=views, heldout=heldout, key=key)
+
+
+def _plan(job: Job) -> tuple[FloorPlan, str]:
+    config = job.config
+    file = config.plan.file
+    source = file_digest(_user_file(file)) if file else [config.scene.theme, config.scene.rooms, config.language.name]
+    key = job.key("plan", source, config.plan.max_iterations)
+    if not job.folder.has("plan", key):
+        if file:
+            plan = load_plan(pathlib.Path(file))
+            layout = {"source": "file", "iterations": 0, "seconds": 0.0}
+        else:
+            backend = make_backend("language", config.language)
+            proposal = propose_plan(
+                backend, config.scene.theme, list(config.scene.rooms), seed=config.seed, max_iterations=config.plan.max_iterations
+            )
+            plan = proposal.plan
+            layout = {"source": config.language.name, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}
+        # How long the layout took is not part of the plan's entry: equal runs have equal manifests.
+        job.folder.write(LAYOUT, json_text(layout))
+        job.folder.save("plan", key, {PLAN: plan_to_json(plan)})
+    return parse_plan((job.folder.path / PLAN).read_text(), PLAN), key
+
+
+def _user_file(file: str) -> pathlib.Path:
+    path = pathlib.Path(file)
+    if not path.is_file():
+        load_plan(path)  # raises the error that says what is wrong with the path
+    return path
+
+
+def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
+    config = job.config
+    key = job.key("furnish", plan_key, config.furnish, config.objects, config.scene.theme)
+    if not config.furnish.enabled:
+        return (), key
+    if not job.folder.has("furnish", key):
+        backend = make_backend("objects", config.objects, context)
+        objects: list[SceneObject] = []
+        with job.bar("furnish", len(context.plan.rooms)) as bar:
+            for room in range(len(context.plan.rooms)):
+                objects += backend.furnish(context, room, density=config.furnish.density)
+                bar.update()
+        summary = codecs.object_summary(objects, [room.id for room in context.plan.rooms])
+        job.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(objects), OBJECTS: json_text(summary)})
+    return codecs.decode_objects((job.folder.path / OBJECT_ARRAYS).read_bytes()), key
+
+
+def _cameras(job: Job, plan: FloorPlan, mesh: Mesh) -> tuple[tuple[View, ...], tuple[View, ...]]:
+    settings = job.config.cameras
+    views = tuple(place_cameras(plan, mesh, settings))
+    heldout = tuple(place_heldout(plan, mesh, views, settings))
+    frames = codecs.transforms_json(views, [room.id for room in plan.rooms], "splats.ply")
+    job.folder.save("cameras", job.key("cameras", settings, json.dumps(frames)), {CAMERAS: json_text(frames)})
+    return views, heldout
