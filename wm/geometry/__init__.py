@@ -19,6 +19,8 @@ from wm.geometry.mesh import assemble_scene as assemble_scene
 from wm.geometry.mesh import check_mesh as check_mesh
 from wm.geometry.mesh import face_normals as face_normals
 from wm.geometry.mesh import object_boxes as object_boxes
+from wm.geometry.navigation import Navigability as Navigability
+from wm.geometry.navigation import navigability as navigability
 from wm.geometry.plan import FloorPlan as FloorPlan
 from wm.geometry.plan import Opening as Opening
 from wm.geometry.plan import PlanError as PlanError
@@ -34,6 +36,9 @@ from wm.geometry.raycast import cast as cast
 from wm.geometry.raycast import cast_rays as cast_rays
 from wm.geometry.raycast import occluded as occluded
 from wm.geometry.sampling import sample_atlas as sample_atlas
+from wm.geometry.sightlines import visible_rooms as visible_rooms
 from wm.geometry.structure import build_structure as build_structure
 from wm.geometry.texture import accumulate as accumulate
 from wm.geometry.views import place_cameras as place_cameras
+from wm.geometry.visibility import Coverage as Coverage
+from wm.geometry.visibility import coverage as coverage

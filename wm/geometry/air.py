@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from jaxtyping import Bool, Float
 from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
 
 from wm.geometry.camera import scale_camera
 from wm.geometry.footprint import interior_polygon
@@ -61,7 +62,7 @@ def room_air(plan: FloorPlan, index: int, scene: RayScene, settings: CameraSetti
     headroom = min(0.3, room.ceiling_height / 4)
     eye_height = min(settings.eye_height, room.ceiling_height - headroom)
     high = max(min(room.ceiling_height - headroom - 0.05, 2.0 * settings.eye_height), eye_height)
-    grid = _grid(floor.buffer(-clearance), _SPOTS)
+    grid = floor_grid(floor.buffer(-clearance), _SPOTS)
     spots = {}
     for height in {eye_height: None, high: None}:
         points = np.column_stack([grid, np.full(len(grid), height)])
@@ -82,7 +83,7 @@ def room_air(plan: FloorPlan, index: int, scene: RayScene, settings: CameraSetti
         eye_height=eye_height,
         ceiling=room.ceiling_height,
         high=high,
-        samples=_grid(floor, _SAMPLES),
+        samples=floor_grid(floor, _SAMPLES),
         spots=spots,
     )
 
@@ -138,7 +139,7 @@ def sphere_directions(count: int) -> Float[np.ndarray, "r 3"]:
     return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
 
 
-def _grid(area: shapely.Geometry, count: int) -> np.ndarray:
+def floor_grid(area: BaseGeometry, count: int) -> Float[np.ndarray, "n 2"]:
     """[n, 2]: about `count` points of a square grid in the area, at most 10 to the metre; the innermost one where none fits."""
     if area.is_empty:
         return np.zeros((0, 2))

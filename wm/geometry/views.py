@@ -95,7 +95,7 @@ def make_view_camera(
 def walk_line(air: RoomAir, start: Float[np.ndarray, "2"], count: int, phase: float) -> Float[np.ndarray, "n 2"]:
     """`count` points along the walls, `air.offset` inside them, evenly by arc length; the first `phase` steps after `start`."""
     walk = air.floor.buffer(-air.offset, join_style="mitre")
-    rings = [part.exterior for part in shapely.get_parts(walk)] or [air.floor.representative_point()]
+    rings = list(shapely.get_exterior_ring(shapely.get_parts(walk))) or [air.floor.representative_point()]
     longest = max(rings, key=lambda ring: ring.length)
     rings = [longest, *(ring for ring in rings if ring is not longest)]
     ends = np.cumsum([ring.length for ring in rings])
@@ -116,7 +116,7 @@ def short_sides(air: RoomAir) -> Float[np.ndarray, "2 2"]:
 
     The sides are those of the floor's smallest rectangle; of a side that is only partly wall, the longest piece counts.
     """
-    corners = np.asarray(shapely.oriented_envelope(air.floor).exterior.coords)[:4]
+    corners = shapely.get_coordinates(shapely.oriented_envelope(air.floor))[:4]
     if np.linalg.norm(corners[1] - corners[0]) > np.linalg.norm(corners[2] - corners[1]) + 1e-9:
         corners = np.roll(corners, -1, axis=0)
     across = corners[1] - corners[0]
