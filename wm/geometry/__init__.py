@@ -15,6 +15,7 @@ from wm.geometry.footprint import portals as portals
 from wm.geometry.glb import GlbNode as GlbNode
 from wm.geometry.glb import object_nodes as object_nodes
 from wm.geometry.glb import save_glb as save_glb
+from wm.geometry.heldout import place_heldout as place_heldout
 from wm.geometry.mesh import assemble_scene as assemble_scene
 from wm.geometry.mesh import check_mesh as check_mesh
 from wm.geometry.mesh import face_normals as face_normals
@@ -42,3 +43,4 @@ from wm.geometry.texture import accumulate as accumulate
 from wm.geometry.views import place_cameras as place_cameras
 from wm.geometry.visibility import Coverage as Coverage
 from wm.geometry.visibility import coverage as coverage
+from wm.geometry.walkthrough import walkthrough as walkthrough
