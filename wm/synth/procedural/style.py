@@ -79,9 +79,14 @@ def style_of(theme: str) -> Style:
 
 
 def family_of(words: list[str]) -> str | None:
-    """The family with most of its words in the theme, the earlier word deciding ties; None where none is."""
+    """The family with most of its words in the theme, the earlier word deciding ties; None where none is.
+
+    The neutral family's words ("modern", "apartment") only count where no other family has one: a modern beach house is
+    a beach house.
+    """
     votes = {name: [i for i, word in enumerate(words) if word in sheet.words] for name, sheet in FAMILIES.items()}
-    best = min(votes, key=lambda name: (-len(votes[name]), votes[name][:1] or [math.inf]))
+    best = min(votes, key=lambda name: (name == NEUTRAL or not votes[name], -len(votes[name]), votes[name][:1]))
+    best = best if votes[best] else NEUTRAL
     return best if votes[best] else None
 
 
@@ -124,18 +129,15 @@ def tinted(sheet: Sheet, words: list[str]) -> Sheet:
 
 
 def refinished(surfaces: Surfaces, kind: str, words: list[str]) -> Surfaces:
-    """Material words choose floors ("marble") and walls ("brick"); wet rooms keep their tiles."""
+    """The first material word of each sort chooses floors ("marble") and walls ("brick"); wet rooms keep their tiles."""
     if kind in ("bathroom", "kitchen"):
         return surfaces
-    for word in words:
-        if word in FLOOR_WORDS:
-            material, scale, codes = FLOOR_WORDS[word]
-            floor = Finish(material, tuple(rgb(c) for c in codes), scale, roughness=surfaces.floor.roughness)
-            surfaces = dataclasses.replace(surfaces, floor=floor)
-        if word in WALL_WORDS:
-            material, scale, codes = WALL_WORDS[word]
-            wall = Finish(material, tuple(rgb(c) for c in codes), scale, roughness=surfaces.wall.roughness)
-            surfaces = dataclasses.replace(surfaces, wall=wall, wainscot=None, wainscot_height=0.0)
+    for material, scale, codes in [FLOOR_WORDS[word] for word in words if word in FLOOR_WORDS][:1]:
+        floor = Finish(material, tuple(rgb(c) for c in codes), scale, roughness=surfaces.floor.roughness)
+        surfaces = dataclasses.replace(surfaces, floor=floor)
+    for material, scale, codes in [WALL_WORDS[word] for word in words if word in WALL_WORDS][:1]:
+        wall = Finish(material, tuple(rgb(c) for c in codes), scale, roughness=surfaces.wall.roughness)
+        surfaces = dataclasses.replace(surfaces, wall=wall, wainscot=None, wainscot_height=0.0)
     return surfaces
 
 

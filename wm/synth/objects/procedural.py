@@ -1,0 +1,55 @@
+"""The offline objects backend: parametric furniture in the theme's style, arranged by the room's type."""
+
+import dataclasses
+
+import numpy as np
+
+from wm.geometry import interior_polygon, portals
+from wm.schema import ObjectsConfig
+from wm.synth.backends import SceneContext
+from wm.synth.procedural.arrange import furnish_site, scene_object
+from wm.synth.procedural.room_type import room_type
+from wm.synth.procedural.site import Site, make_site
+from wm.synth.procedural.style import style_of
+from wm.types import SceneObject
+
+
+@dataclasses.dataclass(frozen=True)
+class ProceduralObjects:
+    """Furnishes rooms out of the theme's words, the room's name and the seed."""
+
+    config: ObjectsConfig
+
+    def furnish(self, context: SceneContext, room: int, *, density: float = 1.0) -> list[SceneObject]:
+        """The objects of one room, placed in world space.
+
+        Args:
+          room: index into the plan's rooms.
+          density: 0..1, the share of the optional pieces that are tried.
+
+        Raises:
+          ValueError: the density is not a share.
+        """
+        if not 0.0 <= density <= 1.0:
+            raise ValueError(f"furnish.density is {density}; it is the share of the optional pieces, between 0 and 1")
+        kind = room_type(context.plan.rooms[room].name)
+        placed = furnish_site(site_of(context, room), kind, style_of(context.theme), seed=context.seed, room=room, density=density)
+        return [scene_object(p, room) for p in placed]
+
+
+def site_of(context: SceneContext, room: int) -> Site:
+    """The room as furniture meets it, from the scene's plan."""
+    openings = []
+    for portal in portals(context.plan):
+        if room not in portal.rooms:
+            continue
+        side = portal.rooms.index(room)
+        inward = -portal.normal if side == 0 else portal.normal
+        ends = np.asarray(portal.ends) + portal.half_depths[side] * inward
+        openings.append((portal.kind, ends, portal.sill, portal.head))
+    return make_site(interior_polygon(context.plan, room), context.plan.rooms[room].ceiling_height, openings)
+
+
+def make(config: ObjectsConfig, context: SceneContext | None = None) -> ProceduralObjects:
+    """The offline objects backend; it keeps nothing of the scene it is made for."""
+    return ProceduralObjects(config)

@@ -1,0 +1,54 @@
+"""Plane outlines of furniture: arches, rounded rectangles, frames and waves, as shapely polygons in (across, up), metres."""
+
+import math
+
+import numpy as np
+import shapely
+
+
+def rectangle(width: float, height: float, *, at: tuple[float, float] = (0.0, 0.0)) -> shapely.Polygon:
+    """Centred across, standing on `at`."""
+    x, z = at
+    return shapely.box(x - width / 2, z, x + width / 2, z + height)
+
+
+def rounded(width: float, height: float, radius: float, *, at: tuple[float, float] = (0.0, 0.0)) -> shapely.Polygon:
+    """A rectangle with round corners, standing on `at`."""
+    radius = min(radius, 0.49 * width, 0.49 * height)
+    return rectangle(width, height, at=at).buffer(-radius).buffer(radius, quad_segs=5)
+
+
+def arch(kind: str, width: float, height: float, *, at: tuple[float, float] = (0.0, 0.0), steps: int = 7) -> shapely.Polygon:
+    """A panel with a top: "pointed" (two arcs that meet), "round", "wave" (a lazy S) or anything else for straight.
+
+    The springing lies as high as leaves the arch its natural rise, at most 0.6 of the height.
+    """
+    x, z = at
+    half = width / 2
+    rise = min({"pointed": 0.87 * width, "round": half, "wave": 0.35 * width}.get(kind, 0.0), 0.6 * height)
+    if rise == 0.0:
+        return rectangle(width, height, at=at)
+    if kind == "pointed":
+        # two arcs of radius w about the opposite springing points, squeezed to the rise
+        t = np.linspace(0, math.pi / 3, steps)
+        right = np.stack([-half + width * np.cos(t), width * np.sin(t) * rise / (0.8660254 * width)], -1)
+        curve = np.concatenate([right, right[-2::-1] * [-1, 1]])
+    elif kind == "round":
+        t = np.linspace(0, math.pi, 2 * steps)
+        curve = np.stack([half * np.cos(t), rise * np.sin(t)], -1)
+    else:
+        u = np.linspace(1, -1, 2 * steps)
+        curve = np.stack([half * u, rise * (0.45 + 0.55 * np.sin(2.4 * u + 0.5) * np.sqrt(np.maximum(1 - u**6, 0)))], -1)
+    top = curve + [x, z + height - curve[:, 1].max()]
+    return shapely.Polygon([(x - half, z), (x + half, z), *map(tuple, top.tolist())]).buffer(0)
+
+
+def frame(outline: shapely.Polygon, border: float) -> shapely.Polygon:
+    """The outline's border of a given width: what is left when its inside is cut out."""
+    cut = outline.difference(outline.buffer(-border, join_style="mitre"))
+    return cut if isinstance(cut, shapely.Polygon) else outline
+
+
+def circle(radius: float, *, at: tuple[float, float] = (0.0, 0.0), segments: int = 24) -> shapely.Polygon:
+    t = np.arange(segments) * 2 * math.pi / segments
+    return shapely.Polygon(np.stack([at[0] + radius * np.cos(t), at[1] + radius * np.sin(t)], -1))
