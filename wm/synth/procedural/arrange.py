@@ -64,6 +64,10 @@ ABSENT: dict[str, frozenset[str]] = {
 """What families would not own."""
 
 
+ONCE = frozenset({"wardrobe", "dresser", "desk", "grandfather clock", "globe", "lectern", "suit of armour"})
+"""Pieces of which a room holds one."""
+
+
 def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, density: float = 1.0) -> list[Placed]:
     """Everything in one room.
 
@@ -232,7 +236,7 @@ def fill(desk: Desk, kind: str) -> None:
     for name in [*special, *usual]:
         if sum(p.piece.support in ("floor", "flat") for p in desk.layout.placed) >= target and name not in special:
             break
-        if desk.rng.random() > 0.45 + 0.55 * desk.density:
+        if desk.rng.random() > 0.45 + 0.55 * desk.density or (name in ONCE and any(p.piece.label == name for p in desk.layout.placed)):
             continue
         where = "corner" if name in ("plant", "floor lamp", "candelabra", "statue", "column", "globe", "basket", "stool", "armchair", "suit of armour", "giant mushroom", "folding screen") else "any"
         desk.at_wall(name, where=where)

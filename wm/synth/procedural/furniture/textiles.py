@@ -28,9 +28,8 @@ def rug(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A rectangular rug, 8 mm thick: border, stripe, field and (in rich styles) a medallion."""
     w, d, h = size
     outline = shapely.box(-w / 2, -d / 2, w / 2, d / 2)
-    if style.form.ornament < 0.25:
-        parts = inlaid(outline, [0.06], ["rug_border", "rug"], 0.0, h, "z", style, rng)
-        return Model(parts)
+    if style.form.ornament < 0.25 or min(w, d) < 1.0:  # too narrow for a medallion
+        return Model(inlaid(outline, [0.06], ["rug_border", "rug"], 0.0, h, "z", style, rng))
     edge = min(0.16, 0.1 * min(w, d))
     border, field = outline, outline.buffer(-edge, join_style="mitre")
     parts = inlaid(border.difference(field), [], ["rug"], 0.0, h, "z", style, rng)
