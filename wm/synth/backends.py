@@ -7,7 +7,7 @@ what the paper's would (condition, reference, prompt, seed); the offline ones ma
 
 import dataclasses
 import importlib
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -49,12 +49,14 @@ class ImageResult:
     drawn_depth: np.ndarray | None = None  # [h, w] what an offline model knows it drew; real models have none
 
 
+@runtime_checkable
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:
         """One image Phi(X, reference, theme; seed)."""
         ...
 
 
+@runtime_checkable
 class WorldBackend(ImageBackend, Protocol):
     """An image backend that also knows the world it paints: the ground truth of held-out views."""
 
@@ -63,18 +65,21 @@ class WorldBackend(ImageBackend, Protocol):
         ...
 
 
+@runtime_checkable
 class LanguageBackend(Protocol):
     def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> str:
         """A floor plan as JSON text; `violations` and `previous` carry what was wrong with the last proposal."""
         ...
 
 
+@runtime_checkable
 class ObjectsBackend(Protocol):
     def furnish(self, context: SceneContext, room: int, *, density: float) -> list[SceneObject]:
         """The objects of one room, placed in world space."""
         ...
 
 
+@runtime_checkable
 class DepthBackend(Protocol):
     def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
         """[h, w] depth up to scale and shift implied by an image, None where no estimate can be given."""
