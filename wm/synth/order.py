@@ -18,10 +18,10 @@ class PaintStep:
     reference: int | None  # index into (done views, then the room's views); None where nothing is finished yet
 
 
-def similarity(q1: Float[np.ndarray, "*batch 4"], q2: Float[np.ndarray, "*batch 4"]) -> Float[np.ndarray, "*batch"]:
-    """|q1 . q2| of the normalised quaternions (wxyz): in [0, 1], the same for q and -q."""
-    dot = np.abs(np.sum(q1 * q2, axis=-1))
-    return np.minimum(dot / (np.linalg.norm(q1, axis=-1) * np.linalg.norm(q2, axis=-1)), 1.0)
+def similarity(q1: Float[np.ndarray, "n 4"], q2: Float[np.ndarray, "m 4"]) -> Float[np.ndarray, "n m"]:
+    """|q1 . q2| of every pair of normalised quaternions (wxyz): in [0, 1], the same for q and -q."""
+    unit1, unit2 = (q / np.linalg.norm(q, axis=1, keepdims=True) for q in (q1, q2))
+    return np.minimum(np.abs(unit1 @ unit2.T), 1.0)
 
 
 def paint_order(
@@ -40,7 +40,8 @@ def paint_order(
     """
     count, before = len(quats), len(done)
     to_done = np.full((count, before + count), -1.0)  # similarity of each view to each finished one, in painting order
-    to_done[:, :before] = similarity(quats[:, None], done[None])
+    to_done[:, :before] = similarity(quats, done)
+    among = similarity(quats, quats)
     painted = list(range(before))
     waiting = list(range(count))
     steps = []
@@ -49,7 +50,7 @@ def paint_order(
         view = waiting[0] if len(steps) < bootstraps else waiting[int(np.argmax(best))]
         nearest = np.round(to_done[view, : len(painted)], 9)
         steps.append(PaintStep(view=view, reference=painted[int(np.argmax(nearest))] if painted else None))
-        to_done[:, len(painted)] = similarity(quats, quats[view])
+        to_done[:, len(painted)] = among[:, view]
         painted.append(before + view)
         waiting.remove(view)
     return steps

@@ -27,7 +27,7 @@ class Verdict:
 
 
 def verify(
-    scaffold_edges: Bool[np.ndarray, "h w"], estimate: Float[np.ndarray, "h w"] | None, settings: VerifySettings
+    scaffold_edges: Bool[np.ndarray, "h w"], estimate: Float[np.ndarray, "eh ew"] | None, settings: VerifySettings
 ) -> Verdict:
     """Judge an image by the depth estimated from it.
 
@@ -35,11 +35,16 @@ def verify(
       scaffold_edges: `depth_edges` of the scaffold's depth, made once a view.
       estimate: depth up to scale and shift; None where the backend could not tell.
       settings: thresholds; `enabled` False passes every image.
+
+    Raises:
+      ValueError: the estimate has another size than the scaffold's edges.
     """
     if not settings.enabled:
         return Verdict(passed=True, recall=None, reason="verification is off")
     if estimate is None or not np.isfinite(estimate).any():
         return Verdict(passed=False, recall=None, reason="no depth could be estimated from the image")
+    if estimate.shape != scaffold_edges.shape:
+        raise ValueError(f"the depth estimate is {estimate.shape}; the view is {scaffold_edges.shape}")
     edges = depth_edges(estimate, np.isfinite(estimate), low=settings.low, high=settings.high)
     recall = edge_recall(scaffold_edges, edges, dilation_radius(settings, scaffold_edges.shape[1]))
     if recall is None:
