@@ -6,11 +6,59 @@
     composite.py  rasterize: alpha compositing over a plan, with its own derivative
     harmonics.py  the colour's dependence on direction
     _reference.py render_reference: the slow float64 twin of render
+
+    training.py   TrainingView: what a fit is shown
+    cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
+    ssim.py       ssim, with its own derivative; losses.py: what a fit minimises
+    step.py       one step; room_fit.py: the loop of steps; frozen.py: what a fit renders and does not move
+    fit.py        fit: views of one room; scene_fit.py: fit_scene, many rooms side by side; checkpoint.py: their resumable state
+    metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
+    ply.py        load_ply, save_ply
 """
 
+from wm.splat.cloud import initial_gaussians
 from wm.splat.composite import rasterize
+from wm.splat.fit import Fit, fit
+from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
+from wm.splat.ply import PlyError, load_ply, save_ply
 from wm.splat.project import Projected, project
 from wm.splat.render import render
+from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
+from wm.splat.room_fit import FitPoint
+from wm.splat.scene_fit import SceneFit, fit_scene
+from wm.splat.ssim import ssim, ssim_map
 from wm.splat.tiles import TilePlan, plan_tiles
+from wm.splat.training import TrainingView
 
-__all__ = ["Projected", "TilePlan", "plan_tiles", "project", "rasterize", "render"]
+__all__ = [
+    "DepthError",
+    "Fit",
+    "FitPoint",
+    "NormalError",
+    "PlyError",
+    "Projected",
+    "ReprojectionError",
+    "SceneFit",
+    "TilePlan",
+    "TrainingView",
+    "depth_error",
+    "fit",
+    "fit_scene",
+    "initial_gaussians",
+    "load_ply",
+    "mutual_pixels",
+    "normal_error",
+    "normals_from_depth",
+    "one_surface",
+    "overlap",
+    "plan_tiles",
+    "project",
+    "psnr",
+    "rasterize",
+    "render",
+    "reprojection_error",
+    "save_ply",
+    "shared_pixels",
+    "ssim",
+    "ssim_map",
+]

@@ -1,0 +1,174 @@
+"""The initial gaussians of a room: the scaffold's surfaces as its views see them, thinned to a spacing.
+
+Every pixel that shows the room's own surface is a world point with a normal and a colour. Points are gathered in cells of the
+wanted spacing, those of differently facing surfaces apart (a corner keeps one gaussian for each of its walls), and a cell becomes
+one gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. Views are folded in one
+at a time, so memory is bounded by the room's surface.
+"""
+
+from collections.abc import Iterable
+
+import chex
+import numpy as np
+from jaxtyping import Float
+
+from wm.geometry.camera import camera_rotation, unproject_depth
+from wm.schema import FitSettings
+from wm.splat.training import TrainingView
+from wm.types import Gaussians
+
+TANGENTIAL, NORMAL = 0.6, 0.05
+"""Standard deviations along and across the surface, as shares of the spacing (measured on the prototype's furnished room)."""
+
+RANDOM_OPACITY = 0.5
+"""Initial opacity of the `random` variant, as in the prototype's figures: opaque ones in free air hide each other."""
+
+SH_C0 = 0.28209479177387814
+"""The constant spherical harmonic, 1 / (2 sqrt(pi)): colour = 0.5 + SH_C0 * sh_0."""
+
+_BITS = 20
+_SHIFT = 0.381966
+"""The grid of cells is shifted by this share of a cell, so that walls at round coordinates do not lie between two."""
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Cloud:
+    """Oriented, coloured points on the host."""
+
+    points: np.ndarray  # [n, 3] float64, metres
+    normals: np.ndarray  # [n, 3] float64 unit
+    colors: np.ndarray  # [n, 3] float64 in [0, 1]
+
+
+def surface_cloud(views: Iterable[TrainingView], spacing: float) -> Cloud:
+    """The surface of a room as oriented points about `spacing` metres apart, sorted by cell: the same views, the same bytes.
+
+    Args:
+        views: views of the room; only their own pixels with a scaffold depth are used. A cell whose colour no usable pixel shows
+            takes the mean colour of the others.
+        spacing: edge of a cell, metres.
+
+    Raises:
+        ValueError: the spacing is not positive, or the surface spans more than 2^20 cells.
+    """
+    if not spacing > 0:
+        raise ValueError(f"the spacing of the initial cloud must be positive, not {spacing}")
+    keys, sums = np.zeros(0, np.int64), np.zeros((0, 11))
+    for view in views:
+        own = view.depth > 0 if view.own is None else (view.depth > 0) & view.own
+        points = unproject_depth(view.camera, view.depth)[own]
+        normals = (depth_normals(view) if view.normal is None else view.normal)[own].astype(np.float64)
+        usable = view.mask[own].astype(np.float64)[:, None]
+        colors = view.rgb[own] / 255.0 * usable
+        rows = np.concatenate([points, normals, colors, usable, np.ones_like(usable)], axis=1)
+        keys, sums = _fold(np.concatenate([keys, _cells(points, normals, spacing)]), np.concatenate([sums, rows]))
+    seen = sums[:, 9:10]
+    fallback = sums[:, 6:9].sum(0) / max(seen.sum(), 1.0)
+    length = np.linalg.norm(sums[:, 3:6], axis=1, keepdims=True)
+    return Cloud(
+        points=sums[:, :3] / sums[:, 10:11],
+        normals=np.where(length > 0, sums[:, 3:6] / np.where(length > 0, length, 1), [0.0, 0.0, 1.0]),
+        colors=np.where(seen > 0, sums[:, 6:9] / np.where(seen > 0, seen, 1), fallback),
+    )
+
+
+def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, rng: np.random.Generator) -> Gaussians:
+    """The gaussians from which the fit of one room starts (NumPy float32 leaves).
+
+    Args:
+        views: the room's views.
+        settings: `init` is "flat" (discs in the surface), "isotropic" (balls on it) or "random" (as many balls anywhere in the
+            room's bounding box, of random colours); `spacing`, `opacity` and `sh_degree` are read too.
+        rng: read by "random" only.
+
+    Source: paper, "Geometry-Regularized 3DGS Scene Reconstruction"; "flat" is ours.
+    """
+    cloud = surface_cloud(views, settings.spacing)
+    n = len(cloud.points)
+    size = np.full((n, 3), settings.spacing * TANGENTIAL)
+    points, colors, quats, opacity = cloud.points, cloud.colors, np.tile([1.0, 0.0, 0.0, 0.0], (n, 1)), settings.opacity
+    match settings.init:
+        case "flat":
+            size[:, 2] = settings.spacing * NORMAL
+            quats = quats_from_normals(cloud.normals)
+        case "isotropic":
+            pass
+        case "random":
+            low, high = (points.min(0), points.max(0)) if n else (np.zeros(3), np.zeros(3))
+            points, colors, opacity = low + rng.random((n, 3)) * (high - low), rng.random((n, 3)), RANDOM_OPACITY
+        case other:
+            raise ValueError(f"fit.init is {other!r}; flat, isotropic or random would be right")
+    sh = np.zeros((n, (settings.sh_degree + 1) ** 2, 3))
+    sh[:, 0] = (colors - 0.5) / SH_C0
+    return Gaussians(
+        means=points.astype(np.float32),
+        quats=quats.astype(np.float32),
+        log_scales=np.log(size).astype(np.float32),
+        opacity_logits=np.full(n, np.log(opacity / (1 - opacity)), np.float32),
+        sh=sh.astype(np.float32),
+    )
+
+
+def quats_from_normals(normals: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 4"]:
+    """Unit quaternions (wxyz) of the shortest rotations that take the z axis to unit normals; z itself half a turn about x to -z."""
+    x, y, z = normals.T
+    quats = np.stack([1 + z, -y, x, np.zeros_like(z)], axis=1)  # (1 + z . n, z cross n)
+    quats = np.where((z < -1 + 1e-9)[:, None], [0.0, 1.0, 0.0, 0.0], quats)
+    return quats / np.linalg.norm(quats, axis=1, keepdims=True)
+
+
+def depth_normals(view: TrainingView) -> Float[np.ndarray, "h w 3"]:
+    """World normals of the scaffold from its depth, facing the camera: differences to the neighbour whose depth is nearer.
+
+    Beside a depth edge that neighbour is on the same surface. Where no neighbour is hit, the normal faces the camera.
+    """
+    points = unproject_depth(view.camera, view.depth)
+    along = [_nearer_difference(points, view.depth, axis) for axis in (0, 1)]
+    normal = np.cross(along[0], along[1])
+    to_camera = points - unproject_depth(view.camera, np.zeros_like(view.depth))
+    normal = np.where((normal * to_camera).sum(-1, keepdims=True) > 0, -normal, normal)
+    length = np.linalg.norm(normal, axis=-1, keepdims=True)
+    facing = -camera_rotation(view.camera)[2]
+    return np.where(length > 0, normal / np.where(length > 0, length, 1), facing)
+
+
+def _nearer_difference(points, depth, axis: int):
+    """Difference along an image axis, forward or backward, whichever crosses the smaller step in depth; 0 where neither exists."""
+    hit = depth > 0
+    after = np.diff(points, axis=axis)
+    step = np.where(np.logical_and(*(np.take(hit, index, axis) for index in _pairs(depth.shape[axis]))), np.abs(np.diff(depth, axis=axis)), np.inf)
+    pad = [(0, 0), (0, 0)]
+    pad[axis] = (1, 1)
+    step = np.pad(step, pad, constant_values=np.inf)
+    after = np.pad(after, [*pad, (0, 0)])
+    size = depth.shape[axis]
+    back_step, ahead_step = np.take(step, range(size), axis), np.take(step, range(1, size + 1), axis)
+    back, ahead = np.take(after, range(size), axis), np.take(after, range(1, size + 1), axis)
+    nearer = np.where((ahead_step <= back_step)[..., None], ahead, back)
+    return np.where(np.isfinite(np.minimum(back_step, ahead_step))[..., None], nearer, 0.0)
+
+
+def _pairs(size: int):
+    return range(size - 1), range(1, size)
+
+
+def _cells(points, normals, spacing: float):
+    """One integer per point: its cell and which of the six axis directions its normal is nearest to."""
+    index = np.floor(points / spacing + _SHIFT).astype(np.int64) + (1 << (_BITS - 1))
+    if index.size and (index.min() < 0 or index.max() >= 1 << _BITS):
+        raise ValueError(
+            f"the surface reaches {np.abs(points).max():.3g} m from the origin: with {spacing} m spacing at most "
+            f"{spacing * 2 ** (_BITS - 1):.3g} m are covered"
+        )
+    axis = np.abs(normals).argmax(axis=1)
+    facing = 2 * axis + (np.take_along_axis(normals, axis[:, None], axis=1)[:, 0] > 0)
+    x, y, z = index.T
+    return ((x << _BITS | y) << _BITS | z) << 3 | facing
+
+
+def _fold(keys, rows):
+    """Rows of equal keys summed, sorted by key."""
+    order = np.argsort(keys, kind="stable")
+    keys = keys[order]
+    first = np.flatnonzero(np.diff(keys, prepend=keys[:1] - 1))
+    return keys[first], np.add.reduceat(rows[order], first, axis=0) if len(first) else rows[:0]

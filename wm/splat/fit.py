@@ -1,0 +1,118 @@
+"""Better gaussians from views of one room, or of whatever the views show together."""
+
+import dataclasses
+import time
+from collections.abc import Callable, Sequence
+
+import jax
+import numpy as np
+
+from wm.schema import FitSettings, RasterSettings
+from wm.splat.frozen import join_columns, pad_columns, visible_columns
+from wm.splat.room_fit import Capacity, FitPoint, RoomFit, SeenView, host, pad_gaussians, to_target, unpad_rows
+from wm.splat.step import project_view, start_state
+from wm.splat.training import TrainingView
+from wm.types import Gaussians
+
+DEFAULT_RASTER = RasterSettings()
+
+Progress = Callable[[int, int, dict], None]
+"""Called with (steps done, steps in all, what is worth showing) after every step."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Fit:
+    """What a fit came to."""
+
+    gaussians: Gaussians  # NumPy float32 leaves, in the order of those it started from
+    history: tuple[FitPoint, ...]  # error against time
+    stopped: str | None  # why it ended early, in one sentence; None: it ran to its end
+
+
+def fit(
+    gaussians: Gaussians,
+    views: Sequence[TrainingView],
+    *,
+    settings: FitSettings,
+    raster: RasterSettings = DEFAULT_RASTER,
+    key: jax.Array,
+    frozen: Gaussians | None = None,
+    heldout: Sequence[TrainingView] = (),
+    progress: Progress | None = None,
+    device: jax.Device | None = None,
+) -> Fit:
+    """Gaussians moved so that their renders agree with the views and their depth with the scaffold.
+
+    Args:
+        gaussians: where to start; not changed. On host or device.
+        views: what they should look like; at least one.
+        settings: steps, learning rates, weights of the loss, points of the curve. (`rounds` is for `fit_scene`.)
+        raster: the rasterizer's constants; `depth` is set here: without depth weight no depth is rendered.
+        key: a JAX key; the order of the views follows from it. Same key, same bytes.
+        frozen: gaussians that are rendered too and not moved.
+        heldout: views to measure the curve on; never trained on.
+        progress: called after every step.
+        device: where to compute; JAX's default device if None.
+
+    Returns: the gaussians and the curve. A loss or gradient that is not finite ends the fit with the last good state and a reason.
+    Raises: ValueError without views.
+    """
+    if not views:
+        raise ValueError("a fit needs at least one view")
+    raster = dataclasses.replace(raster, depth=settings.depth_weight > 0)
+    device = device or jax.devices()[0]
+    started = time.perf_counter()
+    behind = [] if frozen is None else [jax.device_put(pad_gaussians(frozen, len(frozen.opacity_logits)), device)]
+    shown = see_views([*views, *heldout], [behind] * (len(views) + len(heldout)), raster, device)
+    room_fit = RoomFit(
+        views=shown[: len(views)],
+        heldout=shown[len(views) :],
+        settings=settings,
+        raster=raster,
+        seed=seed_of(key),
+        room=views[0].room,
+        capacity=Capacity(),
+        clock=lambda: time.perf_counter() - started,
+    )
+    n = len(gaussians.opacity_logits)
+    state = start_state(jax.device_put(pad_gaussians(gaussians, n), device))
+
+    def report(done: int, info: dict) -> None:
+        if progress is not None:
+            progress(done, settings.steps, info)
+
+    state, history, stopped = room_fit.run(state, 0, settings.steps, report)
+    return Fit(gaussians=unpad_rows(state.gaussians, n), history=tuple(history), stopped=stopped)
+
+
+def see_views(
+    views: Sequence[TrainingView],
+    frozen: Sequence[Sequence[Gaussians]],
+    raster: RasterSettings,
+    device: jax.Device,
+    columns_for: Callable[[int], int] = lambda most: most,
+) -> list[SeenView]:
+    """Views on a device, each with what it sees of its frozen gaussians.
+
+    Args:
+        views: n of them.
+        frozen: for each view, sets of gaussians on the device.
+        raster: the rasterizer's constants.
+        device: where.
+        columns_for: how many columns all views get, from the largest number that one of them needs; 0 for none at all.
+    """
+    targets = [to_target(view, device) for view in views]
+    parts = [
+        [visible_columns(host(project_view(others, target.camera, raster=raster)), view.depth) for others in sets]
+        for view, target, sets in zip(views, targets, frozen)
+    ]
+    seen = [join_columns(*sets) if sets else None for sets in parts]
+    columns = columns_for(max((part.opacity.shape[-1] for part in seen if part is not None), default=0))
+    padded = [pad_columns(part, columns) if columns else None for part in seen]
+    return [SeenView(target=target, frozen=part) for target, part in zip(targets, padded)]
+
+
+def seed_of(key: jax.Array) -> tuple[int, ...]:
+    """The integers of a JAX key, typed or raw."""
+    data = jax.random.key_data(key) if jax.dtypes.issubdtype(key.dtype, jax.dtypes.prng_key) else key
+    return tuple(int(word) for word in np.asarray(data).ravel())

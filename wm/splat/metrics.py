@@ -1,0 +1,107 @@
+"""How good gaussians are, as pure functions of arrays on the host (design.md, section 6: the definitions are ours).
+
+    psnr                      of an image against the image that should be there
+    depth_error               M-MAE, M-RMSE: splat depth against the scaffold's, metres
+    normal_error              N-Cos, N-Ang: normals of the splat depth against the scaffold's
+    reprojection_error        of one view's splat depth moved into another
+Every mean is over the pixels that a mask says are comparable; over none of them it is NaN, never 0. SSIM is in ssim.py.
+"""
+
+import dataclasses
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from wm.geometry.camera import camera_rotation, unproject_depth
+from wm.types import Camera
+
+
+@dataclasses.dataclass(frozen=True)
+class DepthError:
+    """Splat depth against scaffold depth."""
+
+    mae: float  # metres
+    rmse: float  # metres
+
+
+@dataclasses.dataclass(frozen=True)
+class NormalError:
+    """Splat normals against scaffold normals."""
+
+    cosine: float  # mean cosine of the angle between them
+    angle: float  # mean angle, degrees
+
+
+def psnr(
+    image: Float[np.ndarray, "h w c"], truth: Float[np.ndarray, "h w c"], mask: Bool[np.ndarray, "h w"] | None = None
+) -> float:
+    """Peak signal-to-noise ratio in dB of an image (clipped to [0, 1]) against the truth over the mask; inf for equal ones."""
+    squared = (np.clip(image, 0, 1).astype(np.float64) - truth) ** 2
+    error = _mean(squared if mask is None else squared[mask])
+    return float(-10 * np.log10(error)) if error != 0 else float("inf")
+
+
+def depth_error(
+    depth: Float[np.ndarray, "h w"], scaffold: Float[np.ndarray, "h w"], mask: Bool[np.ndarray, "h w"] | None = None
+) -> DepthError:
+    """M-MAE and M-RMSE in metres where the scaffold is hit (its depth is above 0) and the mask holds.
+
+    A pixel that no gaussian covers (depth 0) counts with its whole distance.
+    """
+    where = scaffold > 0 if mask is None else (scaffold > 0) & mask
+    difference = (depth.astype(np.float64) - scaffold)[where]
+    return DepthError(mae=_mean(np.abs(difference)), rmse=float(np.sqrt(_mean(difference**2))))
+
+
+def normals_from_depth(depth: Float[np.ndarray, "h w"], camera: Camera) -> Float[np.ndarray, "h w 3"]:
+    """World normals facing the camera, from central differences of the depth; 0 on the image's border and where they vanish."""
+    points = unproject_depth(camera, depth)
+    normal = np.zeros_like(points)
+    across = points[1:-1, 2:] - points[1:-1, :-2]
+    down = points[2:, 1:-1] - points[:-2, 1:-1]
+    normal[1:-1, 1:-1] = np.cross(down, across)
+    length = np.linalg.norm(normal, axis=-1, keepdims=True)
+    return normal / np.where(length > 0, length, 1)
+
+
+def one_surface(face_group: Int[np.ndarray, "h w"], normal: Float[np.ndarray, "h w 3"], *, max_bend: float = 20.0) -> Bool[np.ndarray, "h w"]:
+    """Pixels whose 3x3 neighbourhood is one surface, so that a central difference means its normal.
+
+    Args:
+        face_group: what a pixel shows (an object, a surface kind and room, a chart ...); negative: nothing.
+        normal: the scaffold's normals.
+        max_bend: degrees that the normals of the neighbourhood may differ from the centre's: an object is one group, and its
+            edges are not one surface.
+    """
+    h, w = face_group.shape
+    same = np.zeros((h, w), bool)
+    if h < 3 or w < 3:
+        return same
+    centre = (slice(1, h - 1), slice(1, w - 1))
+    smooth = face_group[centre] >= 0
+    for i in range(3):
+        for j in range(3):
+            near = (slice(i, h - 2 + i), slice(j, w - 2 + j))
+            cosine = (normal[near] * normal[centre]).sum(-1)
+            smooth = smooth & (face_group[near] == face_group[centre]) & (cosine >= np.cos(np.radians(max_bend)))
+    same[centre] = smooth
+    return same
+
+
+def normal_error(
+    depth: Float[np.ndarray, "h w"], camera: Camera, scaffold: Float[np.ndarray, "h w 3"], mask: Bool[np.ndarray, "h w"]
+) -> NormalError:
+    """N-Cos and N-Ang of the normals of a depth map against the scaffold's, over the mask (`one_surface`).
+
+    Scaffold normals are turned to face the camera. Where the depth has no normal the cosine is 0 and the angle 90 degrees.
+    """
+    facing = np.sign((scaffold * (unproject_depth(camera, np.ones_like(depth)) - unproject_depth(camera, np.zeros_like(depth)))).sum(-1))
+    inner = mask.copy()
+    inner[[0, -1], :], inner[:, [0, -1]] = False, False
+    cosine = (normals_from_depth(depth, camera) * scaffold).sum(-1) * np.where(facing > 0, -1.0, 1.0)
+    cosine = np.clip(cosine[inner], -1, 1)
+    return NormalError(cosine=_mean(cosine), angle=_mean(np.degrees(np.arccos(cosine))))
+
+
+def _mean(values: np.ndarray) -> float:
+    return float(np.mean(values, dtype=np.float64)) if values.size else float("nan")

@@ -1,0 +1,126 @@
+"""Cross-view consistency of depth: the splat depth of view i, moved into view j, against the splat depth of j there.
+
+    p = unproject_i(D_i),  z_ij = depth of p in j,  compared with D_j at the pixel on which p falls,
+    AbsRel = mean |z_ij - D_j| / D_j,   MAE-norm = mean |z_ij - D_j| / median D_j
+
+over the pixels of i of which both views see the same point. With a scaffold that is known exactly (`shared_pixels`); without one
+(an outside method) `mutual_pixels` asks that moving there and back ends near where it began. Definitions are ours.
+"""
+
+import dataclasses
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from wm.geometry.camera import project_points, unproject_depth
+from wm.types import Camera
+
+TOLERANCE = 0.02
+"""Share of the depth within which two depths of one surface point agree: depths between pixels are interpolated."""
+
+
+@dataclasses.dataclass(frozen=True)
+class ReprojectionError:
+    """The disagreement of two views."""
+
+    absrel: float
+    mae_norm: float
+    pixels: int  # compared
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Moved:
+    """The pixels of view i in view j."""
+
+    depth: np.ndarray  # [h, w] their depth in j, metres
+    there: np.ndarray  # [h, w] the depth of j where they fall, metres; 0 if they fall outside or where j has none
+    uv: np.ndarray  # [h, w, 2] where they fall, pixels
+
+
+def shared_pixels(
+    depth_i: Float[np.ndarray, "h w"], camera_i: Camera, depth_j: Float[np.ndarray, "hj wj"], camera_j: Camera
+) -> Bool[np.ndarray, "h w"]:
+    """Pixels of i whose scaffold point j sees too: it lies in j's image and nothing stands before it (`TOLERANCE`)."""
+    moved = _move(depth_i, camera_i, depth_j, camera_j)
+    return (moved.there > 0) & (np.abs(moved.depth - moved.there) <= TOLERANCE * moved.there)
+
+
+def overlap(
+    depth_i: Float[np.ndarray, "h w"], camera_i: Camera, depth_j: Float[np.ndarray, "hj wj"], camera_j: Camera
+) -> float:
+    """Share of the surface that two views have in common, 0..1: the smaller of the shares of either's scaffold pixels."""
+    shares = []
+    for first, second in (((depth_i, camera_i), (depth_j, camera_j)), ((depth_j, camera_j), (depth_i, camera_i))):
+        hit = int((first[0] > 0).sum())
+        shares.append(int(shared_pixels(*first, *second).sum()) / hit if hit else 0.0)
+    return min(shares)
+
+
+def mutual_pixels(
+    depth_i: Float[np.ndarray, "h w"],
+    camera_i: Camera,
+    depth_j: Float[np.ndarray, "hj wj"],
+    camera_j: Camera,
+    *,
+    tolerance: float = 2.0,
+) -> Bool[np.ndarray, "h w"]:
+    """Pixels of i that come back to within `tolerance` pixels when moved into j by D_i and back by D_j."""
+    moved = _move(depth_i, camera_i, depth_j, camera_j)
+    known = moved.there > 0
+    rays = np.concatenate([(np.where(known[..., None], moved.uv, 0.0) - camera_j.principal) / camera_j.focal, np.ones((*known.shape, 1))], -1)
+    T_world_j = np.linalg.inv(np.asarray(camera_j.T_cam_world, np.float64))
+    points = (rays * moved.there[..., None]) @ T_world_j[:3, :3].T + T_world_j[:3, 3]
+    uv, _ = project_points(camera_i, points.reshape(-1, 3))
+    h, w = depth_i.shape
+    u, v = np.meshgrid(np.arange(w) + 0.5, np.arange(h) + 0.5)
+    distance = np.linalg.norm(uv.reshape(h, w, 2) - np.stack([u, v], -1), axis=-1)
+    return known & (distance <= tolerance)  # NaN, behind i, is not within
+
+
+def reprojection_error(
+    depth_i: Float[np.ndarray, "h w"],
+    camera_i: Camera,
+    depth_j: Float[np.ndarray, "hj wj"],
+    camera_j: Camera,
+    mask: Bool[np.ndarray, "h w"],
+) -> ReprojectionError:
+    """The disagreement of the splat depths of i and j over the pixels of i that the mask holds and that fall into j.
+
+    NaN over no pixel. A pixel that j's gaussians do not cover (depth 0) is left out: a hole shows in M-MAE.
+    """
+    moved = _move(depth_i, camera_i, depth_j, camera_j)
+    use = mask & (moved.there > 0)
+    if not use.any():
+        return ReprojectionError(absrel=float("nan"), mae_norm=float("nan"), pixels=0)
+    difference = np.abs(moved.depth - moved.there)[use]
+    return ReprojectionError(
+        absrel=float(np.mean(difference / moved.there[use])),
+        mae_norm=float(np.mean(difference) / np.median(depth_j[depth_j > 0])),
+        pixels=int(use.sum()),
+    )
+
+
+def _move(depth_i, camera_i: Camera, depth_j, camera_j: Camera) -> _Moved:
+    h, w = depth_i.shape
+    uv, depth = project_points(camera_j, unproject_depth(camera_i, depth_i).reshape(-1, 3))
+    uv = np.where((depth_i > 0)[..., None], uv.reshape(h, w, 2), np.nan)
+    return _Moved(depth=depth.reshape(h, w), there=_sample(depth_j, uv), uv=uv)
+
+
+def _sample(depth, uv):
+    """Depth at pixel positions: bilinear in 1 / depth, which is affine over the image of a plane; 0 where a neighbour has none."""
+    h, w = depth.shape
+    x, y = np.moveaxis(uv, -1, 0) - 0.5
+    inside = (x >= 0) & (x <= w - 1) & (y >= 0) & (y <= h - 1)
+    x, y = np.where(inside, x, 0.0), np.where(inside, y, 0.0)
+    i, j = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+    near = depth > 0
+    inverse = np.where(near, 1 / np.where(near, depth, 1).astype(np.float64), 0.0)
+    total, known = np.zeros_like(x), inside
+    for dj, wy in ((0, 1 - (y - j)), (1, y - j)):
+        for di, wx in ((0, 1 - (x - i)), (1, x - i)):
+            at = (np.minimum(j + dj, h - 1), np.minimum(i + di, w - 1))
+            total = total + wx * wy * inverse[at]
+            known = known & (near[at] | (wx * wy == 0))
+    known = known & (total > 0)
+    return np.where(known, 1 / np.where(known, total, 1), 0.0)

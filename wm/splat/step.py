@@ -1,0 +1,123 @@
+"""One step of the fit: render a view, compare, move the gaussians.
+
+The step is one jitted function per (gaussian, frozen and plan capacity, image size); everything that changes from step to step or
+from fit to fit is an argument. A step whose loss or gradient is not finite changes nothing and says so.
+"""
+
+import functools
+from typing import Any
+
+import chex
+import jax
+import jax.numpy as jnp
+import optax
+
+from wm.schema import FitSettings, RasterSettings
+from wm.splat.composite import rasterize
+from wm.splat.frozen import join_columns
+from wm.splat.losses import depth_loss, photometric_terms
+from wm.splat.project import Projected, project
+from wm.splat.tiles import TilePlan
+from wm.types import Camera, Gaussians, Render
+
+_adam = optax.scale_by_adam(eps=1e-15)
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class TrainState:
+    """Gaussians and the moments of their gradients, on one device."""
+
+    gaussians: Any
+    moments: Any  # optax.ScaleByAdamState
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Target:
+    """What a view should show, on the device: `TrainingView` without what only the host needs."""
+
+    camera: Any
+    rgb: Any  # [h, w, 3] uint8
+    depth: Any  # [h, w] float32, 0: no scaffold
+    mask: Any  # [h, w] bool
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Rates:
+    """What a step is steered by: learning rates by leaf (already decayed) and the weights of the loss. Scalars, traced."""
+
+    learning: Any  # Gaussians of floats
+    ssim: Any
+    depth: Any
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class StepTerms:
+    """The loss of one step and its terms, and whether it and its gradient were finite."""
+
+    loss: Any
+    l1: Any
+    dissimilarity: Any  # mean 1 - SSIM
+    depth: Any  # metres
+    finite: Any
+
+
+def start_state(gaussians: Gaussians) -> TrainState:
+    """A state with no history."""
+    return TrainState(gaussians=gaussians, moments=_adam.init(gaussians))
+
+
+def rates_at(settings: FitSettings, step: int, steps: int) -> Rates:
+    """The rates of a step: learning rates fall geometrically to `lr_final` of themselves over the fit."""
+    decay = settings.lr_final ** (step / max(steps - 1, 1))
+    learning = Gaussians(
+        means=settings.lr_means * decay,
+        quats=settings.lr_quats * decay,
+        log_scales=settings.lr_scales * decay,
+        opacity_logits=settings.lr_opacities * decay,
+        sh=settings.lr_sh * decay,
+    )
+    return Rates(learning=learning, ssim=settings.ssim_weight, depth=settings.depth_weight)
+
+
+@functools.partial(jax.jit, static_argnames="raster")
+def project_view(gaussians: Gaussians, camera: Camera, *, raster: RasterSettings) -> Projected:
+    """`project`, compiled."""
+    return project(gaussians, camera, raster)
+
+
+@functools.partial(jax.jit, static_argnames=("width", "height", "raster"))
+def rasterize_view(projected: Projected, plan: TilePlan, *, width: int, height: int, raster: RasterSettings) -> Render:
+    """`rasterize`, compiled."""
+    return rasterize(projected, plan, width, height, raster)
+
+
+@functools.partial(jax.jit, static_argnames="raster", donate_argnums=0)
+def train_step(
+    state: TrainState, target: Target, frozen: Projected | None, plan: TilePlan, rates: Rates, *, raster: RasterSettings
+) -> tuple[TrainState, StepTerms]:
+    """The state after one step toward one view, and the loss before it; the state's buffers are used up.
+
+    Args:
+        state: what moves.
+        target: the view.
+        frozen: other gaussians as this view sees them: rendered, not moved.
+        plan: of the projections of the state's gaussians and of the frozen ones, in that order.
+        rates: of this step.
+        raster: without `depth` the loss has no depth term.
+    """
+
+    def objective(gaussians: Gaussians):
+        camera = target.camera
+        projected = join_columns(project(gaussians, camera, raster), frozen)
+        render = rasterize(projected, plan, camera.width, camera.height, raster)
+        l1, dissimilarity = photometric_terms(render.rgb, target.rgb.astype(jnp.float32) / 255, target.mask)
+        depth = depth_loss(render.depth, target.depth, target.mask) if raster.depth else jnp.float32(0)
+        return (1 - rates.ssim) * l1 + rates.ssim * dissimilarity + rates.depth * depth, (l1, dissimilarity, depth)
+
+    (loss, (l1, dissimilarity, depth)), gradient = jax.value_and_grad(objective, has_aux=True)(state.gaussians)
+    finite = functools.reduce(jnp.logical_and, [jnp.isfinite(leaf).all() for leaf in jax.tree.leaves((loss, gradient))])
+    updates, moments = _adam.update(gradient, state.moments)
+    moved = jax.tree.map(lambda x, u, rate: x - rate * u, state.gaussians, updates, rates.learning)
+    moved = TrainState(gaussians=moved, moments=moments)
+    kept = jax.tree.map(lambda new, old: jnp.where(finite, new, old), moved, state)
+    return kept, StepTerms(loss=loss, l1=l1, dissimilarity=dissimilarity, depth=depth, finite=finite)

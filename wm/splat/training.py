@@ -1,0 +1,34 @@
+"""What the fit is shown: an image, the depth of the scaffold behind it, and which of its pixels may be believed."""
+
+import dataclasses
+
+import numpy as np
+
+from wm.types import Camera
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TrainingView:
+    """One posed image of one room with its scaffold, on the host.
+
+    Raises: ValueError at construction, naming the array whose shape does not fit the camera.
+    """
+
+    camera: Camera
+    rgb: np.ndarray  # [h, w, 3] uint8
+    depth: np.ndarray  # [h, w] float32 z-depth of the scaffold, metres; 0 where it is not hit or not to be trusted (a window)
+    mask: np.ndarray  # [h, w] bool: usable pixels
+    room: int  # the room it stands in
+    own: np.ndarray | None = None  # [h, w] bool: pixels that show a surface of `room`; None: all of them
+    normal: np.ndarray | None = None  # [h, w, 3] float32 world normal of the scaffold; None: taken from the depth
+    sees: tuple[int, ...] = ()  # other rooms that it may see into, through doors
+
+    def __post_init__(self) -> None:
+        size = (self.camera.height, self.camera.width)
+        shapes = {"rgb": (*size, 3), "depth": size, "mask": size, "own": size, "normal": (*size, 3)}
+        for name, shape in shapes.items():
+            array = getattr(self, name)
+            if array is not None and array.shape != shape:
+                raise ValueError(f"training view of room {self.room}: {name} has shape {array.shape}, its camera makes {shape}")
+        if self.rgb.dtype != np.uint8 or self.mask.dtype != np.bool_:
+            raise ValueError(f"training view of room {self.room}: rgb must be uint8 and mask bool, not {self.rgb.dtype}, {self.mask.dtype}")
