@@ -1,22 +1,26 @@
 """Alpha compositing over tiles, front to back, and its derivative.
 
-Per pixel, over its tile's list: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 (l of project.py over sqrt 2), alpha = min(alpha_max, o exp(-q)), dropped below alpha_min;
-w_i = T_i alpha_i, T_{i+1} = T_i - w_i; features F = sum w_i f_i (colour, depth). A pixel is finished once T < transmittance_min:
-the gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls in changes nothing.
+Per pixel, over its tile's list: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 (l of project.py over sqrt 2),
+alpha = exp(min(log o - q, log alpha_max)), dropped below alpha_min; w_i = T_i alpha_i, T_{i+1} = T_i - w_i; features
+F = sum w_i f_i (colour, depth). A pixel is finished once T < transmittance_min: the gaussian that took it there still counts,
+later ones do not. Which tile, block or chunk a pixel falls in changes nothing.
 
-Backward, with g = dL/dF and g_T = dL/dT_final: the part of the loss still to come S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j
-falls to 0 along the list, so it is walked front to back again and
+Backward, with g = dL/dF and g_T = dL/dT_final: the part of the loss still to come
+S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so it is walked front to back again and
 
-    dL/d alpha_i = T_i g . f_i - S_i / (1 - alpha_i),   dL/d f_i = sum over pixels of w_i g,
-    dL/dq_i = -alpha_i dL/d alpha_i  (0 where alpha is clamped or cut).
+    dL/d log alpha_i = w_i g . f_i - S_i alpha_i / (1 - alpha_i)   (0 where alpha is clamped or cut),
+    dL/dq_i = -dL/d log alpha_i,   dL/d log o_i = dL/d log alpha_i,   dL/d f_i = sum over pixels of w_i g.
 
 Sums over a tile's pixels are one product with the basis {1, u, v, u^2, uv, v^2}, (u, v) from the tile's centre; the derivatives
-by mean and conic follow from those six moments. Tiers: a block of tiles advances together, a chunk of gaussians at a time, so
-the overhead of one loop iteration is paid once for block x tile^2 x chunk pairs.
+by mean and root follow from those six moments. Tiers: a block of tiles advances together, a chunk of gaussians at a time, so
+the overhead of a loop iteration is paid once for block x tile^2 x chunk pairs. Everything before the exponential is decided in
+its argument (clamp, cut, end of the list), because XLA on a CPU computes an exponential once and cheap operations once a use.
 """
 
 import functools
+from typing import Any
 
+import chex
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -29,7 +33,19 @@ from wm.splat.tiles import TilePlan
 from wm.types import Render
 
 GEOMETRY = 6
-"""Columns of the table before the features: mean x, y, root l0, l1, l2 over sqrt 2, opacity."""
+"""Columns of the table before the features: mean x, y, root l0, l1, l2 over sqrt 2, log opacity."""
+
+CLAMPED = 1e-6
+"""Alphas closer than this (relative) to alpha_max are the clamped ones: the exponential of the clamp rounds."""
+
+
+@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+class Composite:
+    """Result of the compositing, lane by lane as the plan orders the tiles (blocks and lanes flattened)."""
+
+    transmittance: Any  # [lanes, pixels]
+    features: Any  # [lanes, features, pixels]
+    length: Any  # [lanes] int32 entries visited before the list ended or every pixel was finished; no gradient
 
 
 def rasterize(
@@ -38,7 +54,11 @@ def rasterize(
     width: int,
     height: int,
     settings: RasterSettings = RasterSettings(),
-    background: Float[Array, "3"] | Float[Array, "h w 3"] | None = None,
+    background: Float[Array, "3"]
+    | Float[Array, "h w 3"]
+    | Float[np.ndarray, "3"]
+    | Float[np.ndarray, "h w 3"]
+    | None = None,
 ) -> Render:
     """The image of projected gaussians; pure, jittable, differentiable in `projected` and `background`.
 
@@ -52,97 +72,108 @@ def rasterize(
     Returns:
         The image. With `settings.depth` False its depth is 0 everywhere and costs nothing.
     """
+    composite = _composite(_table(projected, settings), plan, -(-width // settings.tile), settings)
+    t = _image(composite.transmittance, plan, width, height, settings.tile)
+    features = [_image(composite.features[:, j], plan, width, height, settings.tile) for j in range(composite.features.shape[1])]
+    rgb = jnp.stack(features[:3], -1)
+    if background is not None:
+        rgb = rgb + t[..., None] * jnp.asarray(background, jnp.float32)
+    depth = safe_div(features[3], 1 - t) if settings.depth else jnp.zeros_like(t)
+    return Render(rgb=rgb, depth=depth, alpha=1 - t)
+
+
+def _table(projected: Projected, settings: RasterSettings) -> Float[Array, "rows columns"]:
+    """One row a gaussian, and a last row of zero opacity at which the padding of a plan points."""
+    culled = projected.opacity <= 0
+    log_opacity = jnp.where(culled, -jnp.inf, jnp.log(jnp.where(culled, 1.0, projected.opacity)))
     features = [projected.color, projected.depth[None]] if settings.depth else [projected.color]
-    rows = jnp.concatenate([projected.mean2d, projected.root * np.sqrt(0.5), projected.opacity[None], *features])
-    table = jnp.pad(rows.T, ((0, 1), (0, 0)))  # the padding of the plan points at the last row, which has opacity 0
-    T, F = _composite(table, plan, -(-width // settings.tile), settings)
-    T = _image(T, plan, width, height, settings.tile)
-    F = _image(F, plan, width, height, settings.tile)
-    behind = jnp.zeros(3) if background is None else jnp.asarray(background, jnp.float32)
-    alpha = 1 - T
-    depth = safe_div(F[..., 3], alpha) if settings.depth else jnp.zeros_like(alpha)
-    return Render(rgb=F[..., :3] + T[..., None] * behind, depth=depth, alpha=alpha)
+    columns = jnp.concatenate([projected.mean2d, projected.root * np.sqrt(0.5), log_opacity[None], *features])
+    return jnp.pad(columns.T, ((0, 1), (0, 0)), constant_values=0.0).at[-1, GEOMETRY - 1].set(-jnp.inf)
 
 
-def _image(x, plan: TilePlan, width: int, height: int, tile: int):
-    """Lanes [blocks, (channels,) lanes, pixels] to an image [h, w(, channels)]."""
-    channels = x.shape[1:-2]
-    x = jnp.moveaxis(x.reshape(x.shape[0], -1, *x.shape[-2:]), 1, -1).reshape(-1, tile, tile, *channels)[plan.slot]
+def _image(lanes: Float[Array, "lanes pixels"], plan: TilePlan, width: int, height: int, tile: int) -> Float[Array, "h w"]:
     columns, rows = -(-width // tile), -(-height // tile)
-    x = jnp.swapaxes(x.reshape(rows, columns, tile, tile, *channels), 1, 2)
-    return x.reshape(rows * tile, columns * tile, *channels)[:height, :width]
+    tiles = lanes[plan.slot].reshape(rows, columns, tile, tile)
+    return jnp.swapaxes(tiles, 1, 2).reshape(rows * tile, columns * tile)[:height, :width]
 
 
 @functools.partial(jax.custom_vjp, nondiff_argnums=(2, 3))
-def _composite(table, plan: TilePlan, columns: int, settings: RasterSettings):
-    """Final transmittance [blocks, lanes, pixels] and features [blocks, features, lanes, pixels]."""
+def _composite(table, plan: TilePlan, columns: int, settings: RasterSettings) -> Composite:
+    features = table.shape[1] - GEOMETRY
 
     def block(lanes):
         tile, start, count = lanes
         origin = _origins(tile, columns, settings)
 
         def step(state):
-            i, T, F = state
-            _, g, alpha, _ = _alphas(table, plan.ids, origin, start, count, i, settings)
+            i, length, t, F = state
+            _, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings.chunk, settings)
             for k in range(settings.chunk):
-                w = jnp.where(T >= settings.transmittance_min, alpha[:, k] * T, 0.0)
+                w = jnp.where(t >= settings.transmittance_min, alpha[:, k] * t, 0.0)
                 F = [f + g[:, k, GEOMETRY + j, None] * w for j, f in enumerate(F)]
-                T = T - w
-            return i + settings.chunk, T, F
+                t = t - w
+            i = i + settings.chunk
+            # a lane goes on while it has entries and an open pixel; where it stops is what the backward pass will visit
+            goes_on = (length == i - settings.chunk) & (i < count) & (jnp.max(t, 1) >= settings.transmittance_min)
+            return i, jnp.where(goes_on, i, length), t, F
 
-        T = jnp.ones((tile.shape[0], settings.tile**2))
-        F = [jnp.zeros_like(T)] * (table.shape[1] - GEOMETRY)
-        _, T, F = jax.lax.while_loop(functools.partial(_unfinished, count, settings), step, (jnp.int32(0), T, F))
-        return T, jnp.stack(F)
+        t = jnp.ones((tile.shape[0], settings.tile**2))
+        state = (jnp.int32(0), jnp.zeros_like(count), t, [jnp.zeros_like(t)] * features)
+        _, length, t, F = jax.lax.while_loop(lambda state: jnp.max(jnp.where(state[1] == state[0], count, 0)) > 0, step, state)
+        return Composite(transmittance=t, features=jnp.stack(F, 1), length=jnp.minimum(length + settings.chunk, count))
 
-    return jax.lax.map(block, (plan.tile, plan.start, plan.count))
+    blocks = jax.lax.map(block, (plan.tile, plan.start, plan.count))
+    return jax.tree.map(lambda x: x.reshape(-1, *x.shape[2:]), blocks)
 
 
 def _composite_fwd(table, plan: TilePlan, columns: int, settings: RasterSettings):
-    T, F = _composite(table, plan, columns, settings)
-    return (T, F), (table, plan, T, F)
+    composite = _composite(table, plan, columns, settings)
+    return composite, (table, plan, composite)
 
 
-def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent):
-    table, plan, T_final, F_final = residuals
-    g_T, g_F = cotangent
+def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent: Composite):
+    table, plan, composite = residuals
+    chunk = max(settings.chunk // 2, 1)  # the recurrence is recomputed along the chunk for each output: shorter is cheaper here
     basis = _basis(settings.tile)
 
     def block(gradient, lanes):
-        tile, start, count, T_final, F_final, g_T, g_F = lanes
+        # lanes that end together walk together: the forward pass knows where each ends
+        tile, start, count, t_final, F_final, g_t, g_F = (x[lanes] for x in per_lane)
         origin = _origins(tile, columns, settings)
 
         def step(state):
-            i, T, rest, gradient = state
-            entry, g, alpha, falloff = _alphas(table, plan.ids, origin, start, count, i, settings)
+            i, t, rest, gradient = state
+            entry, g, alpha = _alphas(table, plan.ids, origin, start, count, i, chunk, settings)
             ws, ds = [], []
-            for k in range(settings.chunk):
+            for k in range(chunk):
                 a = alpha[:, k]
-                value = sum(g[:, k, GEOMETRY + j, None] * g_F[j] for j in range(g_F.shape[0]))
-                open_ = T >= settings.transmittance_min
-                w = jnp.where(open_, a * T, 0.0)
+                value = sum(g[:, k, GEOMETRY + j, None] * g_F[:, j] for j in range(g_F.shape[1]))
+                w = jnp.where(t >= settings.transmittance_min, a * t, 0.0)
                 rest = rest - w * value
-                ds.append(jnp.where(open_ & (a > 0) & (a < settings.alpha_max), T * value - rest / (1 - a), 0.0))
+                free = (w > 0) & (a < settings.alpha_max * (1 - CLAMPED))
+                ds.append(jnp.where(free, w * value - rest * (a / (1 - a)), 0.0))
                 ws.append(w)
-                T = T - w
-            by_falloff = jnp.stack(ds, 1) * falloff
-            row = _gradient_rows(g, origin, by_falloff, jnp.stack(ws, 1), g_F, basis)
-            return i + settings.chunk, T, rest, gradient.at[entry].add(row, mode="promise_in_bounds")
+                t = t - w
+            rows = _gradient_rows(g, origin, jnp.stack(ds, 1), jnp.stack(ws, 1), g_F, basis)
+            return i + chunk, t, rest, gradient.at[entry].add(rows, mode="promise_in_bounds")
 
-        rest = (F_final * g_F).sum(0) + T_final * g_T
-        state = (jnp.int32(0), jnp.ones_like(T_final), rest, gradient)
-        return jax.lax.while_loop(functools.partial(_unfinished, count, settings), step, state)[3], None
+        rest = (F_final * g_F).sum(1) + t_final * g_t
+        state = (jnp.int32(0), jnp.ones_like(t_final), rest, gradient)
+        return jax.lax.while_loop(lambda state: state[0] < jnp.max(count), step, state)[3], None
 
-    lanes = (plan.tile, plan.start, plan.count, T_final, F_final, g_T, g_F)
-    return jax.lax.scan(block, jnp.zeros_like(table), lanes)[0], None
+    per_lane = (
+        *(x.reshape(-1) for x in (plan.tile, plan.start)),
+        composite.length,
+        composite.transmittance,
+        composite.features,
+        cotangent.transmittance,
+        cotangent.features,
+    )
+    by_length = jnp.argsort(-composite.length).reshape(plan.tile.shape)
+    return jax.lax.scan(block, jnp.zeros_like(table), by_length)[0], None
 
 
 _composite.defvjp(_composite_fwd, _composite_bwd)
-
-
-def _unfinished(count, settings: RasterSettings, state):
-    i, T = state[:2]
-    return jnp.max(jnp.where((i < count)[:, None], T, 0.0)) >= settings.transmittance_min
 
 
 def _origins(tile, columns: int, settings: RasterSettings):
@@ -159,34 +190,36 @@ def _offsets(tile: int):
 
 def _basis(tile: int):
     u, v = _offsets(tile)
-    return jnp.asarray(np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], -1))
+    zero = np.zeros_like(u)  # eight columns multiply faster than six
+    return jnp.asarray(np.stack([np.ones_like(u), u, v, u * u, u * v, v * v, zero, zero], -1))
 
 
-def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
-    """The chunk at i: gaussians [lanes, chunk], their rows [.., columns], their alphas and falloffs exp(-q) [.., pixels]."""
-    step = i + jnp.arange(settings.chunk)
+def _alphas(table, ids, origin, start, count, i, chunk: int, settings: RasterSettings):
+    """The chunk at i: gaussians [lanes, chunk], their rows [lanes, chunk, columns], their alphas [lanes, chunk, pixels]."""
+    step = i + jnp.arange(chunk)
     listed = step < count[:, None]
     entry = ids.at[start[:, None] + step].get(mode="clip")
     g = table.at[entry].get(mode="promise_in_bounds")
     u, v = _offsets(settings.tile)
     dx = u - (g[..., 0] - origin[:, None, 0])[..., None]
     dy = v - (g[..., 1] - origin[:, None, 1])[..., None]
-    falloff = jnp.exp(-((g[..., 2, None] * dx + g[..., 3, None] * dy) ** 2) - (g[..., 4, None] * dy) ** 2)
-    alpha = jnp.minimum(jnp.where(listed, g[..., 5], 0.0)[..., None] * falloff, settings.alpha_max)
-    return entry, g, jnp.where(alpha >= settings.alpha_min, alpha, 0.0), falloff
+    log_opacity = jnp.where(listed, g[..., 5], -jnp.inf)[..., None]
+    log_alpha = log_opacity - (g[..., 2, None] * dx + g[..., 3, None] * dy) ** 2 - (g[..., 4, None] * dy) ** 2
+    kept = log_alpha >= np.log(settings.alpha_min)
+    return entry, g, jnp.exp(jnp.where(kept, jnp.minimum(log_alpha, np.log(settings.alpha_max)), -jnp.inf))
 
 
-def _gradient_rows(g, origin, by_falloff, w, g_F, basis):
-    """Derivatives by every column of the table, [lanes, chunk, columns], from dL/d(falloff) and the weights."""
+def _gradient_rows(g, origin, d_log_alpha, w, g_F, basis):
+    """Derivatives by every column of the table, [lanes, chunk, columns]."""
     lanes, chunk, pixels = w.shape
-    moments = jnp.dot(by_falloff.reshape(-1, pixels), basis, precision="highest").reshape(lanes, chunk, 6)
-    features = jnp.einsum("lkp,flp->lkf", w, g_F, precision="highest")
-    m0, mu, mv, muu, muv, mvv = jnp.moveaxis(moments, -1, 0)
+    moments = jnp.dot(d_log_alpha.reshape(-1, pixels), basis, precision="highest").reshape(lanes, chunk, -1)
+    features = jnp.einsum("lkp,lfp->lkf", w, g_F, precision="highest")
+    m0, mu, mv, muu, muv, mvv = (moments[..., j] for j in range(6))
     x, y = g[..., 0] - origin[:, None, 0], g[..., 1] - origin[:, None, 1]
     sx, sy = mu - x * m0, mv - y * m0
     sxx, syy = muu - 2 * x * mu + x * x * m0, mvv - 2 * y * mv + y * y * m0
     sxy = muv - x * mv - y * mu + x * y * m0
-    l0, l1, l2, o = (g[..., j] for j in (2, 3, 4, 5))
-    ex, exx, exy = l0 * sx + l1 * sy, l0 * sxx + l1 * sxy, l0 * sxy + l1 * syy  # moments of e = l0 dx + l1 dy times 1, dx, dy
-    by_q = [-l0 * ex, -l1 * ex - l2 * l2 * sy, exx, exy, l2 * syy]
-    return jnp.concatenate([jnp.stack([*(-2 * o * d for d in by_q), m0], -1), features], -1)
+    l0, l1, l2 = (g[..., j] for j in (2, 3, 4))
+    ex, exx, exy = l0 * sx + l1 * sy, l0 * sxx + l1 * sxy, l0 * sxy + l1 * syy  # e = l0 dx + l1 dy summed with 1, dx, dy
+    by_geometry = [2 * l0 * ex, 2 * (l1 * ex + l2 * l2 * sy), -2 * exx, -2 * exy, -2 * l2 * syy, m0]
+    return jnp.concatenate([jnp.stack(by_geometry, -1), features], -1)
