@@ -1,0 +1,92 @@
+"""The slow twin of `render`: float64, every pixel against every gaussian, no tiles, no custom derivative.
+
+It follows the equations as design.md section 5 writes them (covariance, its inverse by determinant, cut, clamp, stop) and not the
+forms that the fast path rearranges them into. Differentiate it with `jax.grad`. Memory is O(pixels x gaussians).
+"""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from wm.schema import RasterSettings
+from wm.splat.harmonics import harmonics
+from wm.types import Camera, Gaussians, Render
+
+
+def render_reference(
+    gaussians: Gaussians,
+    camera: Camera,
+    *,
+    background: Float[Array, "3"]
+    | Float[Array, "h w 3"]
+    | Float[np.ndarray, "3"]
+    | Float[np.ndarray, "h w 3"]
+    | None = None,
+    settings: RasterSettings = RasterSettings(),
+) -> Render:
+    """What `render` promises, in float64; call it, and differentiate it, under `with jax.enable_x64(True)`.
+
+    Raises:
+        RuntimeError: float64 is not enabled.
+    """
+    if not jax.config.jax_enable_x64:
+        raise RuntimeError("render_reference computes in float64: call it under `with jax.enable_x64(True)`")
+    as64 = lambda tree: jax.tree.map(lambda x: jnp.asarray(x, jnp.float64), tree)  # noqa: E731
+    gaussians, camera = as64(gaussians), as64(camera)
+    R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
+    p = gaussians.means @ R.T + t
+    front = p[:, 2] > settings.near
+    p = jnp.where(front[:, None], p, jnp.array([0.0, 0.0, 1.0]))
+    z = p[:, 2]
+    sigma = _covariance(gaussians, R, p, camera, settings)
+    inverse = jnp.linalg.inv(sigma)
+    mean2d = p[:, :2] / z[:, None] * camera.focal + camera.principal
+    opacity = jax.nn.sigmoid(gaussians.opacity_logits)
+    color = _color(gaussians, -R.T @ t)
+
+    j, i = jnp.meshgrid(jnp.arange(camera.height) + 0.5, jnp.arange(camera.width) + 0.5, indexing="ij")
+    d = jnp.stack([i, j], -1)[:, :, None] - mean2d  # [h, w, n, 2]
+    q = 0.5 * jnp.einsum("hwni,nij,hwnj->hwn", d, inverse, d)
+    alpha = jnp.minimum(settings.alpha_max, opacity * jnp.exp(-q))
+    alpha = jnp.where((alpha >= settings.alpha_min) & front, alpha, 0.0)
+    order = jnp.argsort(z, stable=True)
+    alpha, color, z = alpha[..., order], color[order], z[order]
+    passed = jnp.cumprod(1 - alpha, axis=-1)
+    T = jnp.concatenate([jnp.ones_like(passed[..., :1]), passed[..., :-1]], -1)
+    w = jnp.where(settings.transmittance_min <= T, T * alpha, 0.0)
+    total = w.sum(-1)
+    seen = total > 0
+    depth = jnp.where(seen, w @ z / jnp.where(seen, total, 1.0), 0.0) if settings.depth else jnp.zeros_like(total)
+    behind = jnp.zeros(3) if background is None else jnp.asarray(background, jnp.float64)
+    return Render(rgb=w @ color + (1 - total)[..., None] * behind, depth=depth, alpha=total)
+
+
+def _covariance(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSettings):
+    zero = jnp.all(gaussians.quats == 0, axis=1, keepdims=True)
+    q = jnp.where(zero, jnp.array([1.0, 0.0, 0.0, 0.0]), gaussians.quats)
+    w, x, y, z = (q / jnp.linalg.norm(q, axis=1, keepdims=True)).T
+    Q = jnp.array(
+        [
+            [w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
+        ]
+    ).transpose(2, 0, 1)
+    size = jnp.array([camera.width, camera.height])
+    margin = (settings.frustum_margin - 1) * size / (2 * camera.focal)
+    low, high = -camera.principal / camera.focal - margin, (size - camera.principal) / camera.focal + margin
+    slope = jnp.clip(p[:, :2] / p[:, 2:], low, high)
+    scale = camera.focal / p[:, 2:]
+    J = jnp.concatenate([scale[:, :, None] * jnp.eye(2), (-scale * slope)[:, :, None]], -1)
+    M = J @ R @ Q @ jax.vmap(jnp.diag)(jnp.exp(gaussians.log_scales))
+    return M @ M.transpose(0, 2, 1) + settings.blur * jnp.eye(2)
+
+
+def _color(gaussians: Gaussians, centre):
+    degree = round(gaussians.sh.shape[1] ** 0.5) - 1
+    away = gaussians.means - centre
+    # at the camera's centre there is no direction; such gaussians are culled, only a finite number is wanted here
+    away = jnp.where(jnp.any(away != 0, axis=1, keepdims=True), away, 1.0)
+    basis = harmonics((away / jnp.linalg.norm(away, axis=1, keepdims=True)).T, degree)
+    return 0.5 + sum(jnp.broadcast_to(Y, away.shape[:1])[:, None] * gaussians.sh[:, k] for k, Y in enumerate(basis))
