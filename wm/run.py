@@ -22,7 +22,7 @@ from hydra.core.config_store import ConfigStore
 from hydra.core.hydra_config import HydraConfig
 from hydra.errors import HydraException, MissingConfigException, OverrideParseException
 from hydra.types import RunMode
-from omegaconf import DictConfig, OmegaConf
+from omegaconf import OmegaConf
 from omegaconf.errors import InterpolationToMissingValueError, MissingMandatoryValue, OmegaConfBaseException
 
 from wm.schema import RunConfig
@@ -53,7 +53,7 @@ def main() -> None:
         sys.exit(_exit_code(error))
 
 
-def freeze(composed: DictConfig) -> RunConfig:
+def freeze(composed: Any) -> RunConfig:
     """The composed tree as checked dataclasses.
 
     Raises:
@@ -112,7 +112,7 @@ def options(group: str) -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in (CONF / group).glob("*.yaml")))
 
 
-def _run_one(composed: DictConfig) -> None:
+def _run_one(composed: Any) -> None:
     config: RunConfig | None = None
     folder = Path(HydraConfig.get().runtime.output_dir)
     try:
@@ -145,7 +145,7 @@ def _exit_code(error: BaseException) -> int:
     return BAD_INPUT if bad_input else FAILED  # PlanError by name: a failed `--help` need not import geometry
 
 
-def _unknown_keys(node: DictConfig, record: type, prefix: str) -> Iterator[str]:
+def _unknown_keys(node: Any, record: type, prefix: str) -> Iterator[str]:
     known = {field.name: field for field in fields(record)}
     for name in map(str, node):
         if name not in known:
@@ -180,7 +180,7 @@ def _no_scene() -> str:
 
 
 def _one_line(text: str) -> str:
-    return " ".join(text.split())
+    return "; ".join(" ".join(line.split()) for line in text.splitlines() if line.strip())
 
 
 def _say(line: str) -> None:

@@ -116,8 +116,9 @@ def _scene_problems(config: RunConfig) -> Iterator[str]:
         yield "scene.theme='': say in words what the scene should be"
     if not scene.rooms and config.plan.file is None:
         yield "scene.rooms=[]: name at least one room, or give a plan.file"
-    if any(not room.strip() for room in scene.rooms):
-        yield f"scene.rooms={scene.rooms!r}: a room without a name"
+    for room in scene.rooms:
+        if not room.strip() or not room.isprintable() or len(room) > 200:
+            yield f"scene.rooms has {room!r}: a room's name has 1 to 200 printable characters"
 
 
 def _leaves(record: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
@@ -129,5 +130,5 @@ def _leaves(record: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
             yield f"{prefix}{field.name}", value
 
 
-def _within(value: Any, low: float, high: float) -> bool:
+def _within(value: Any, low: int | float, high: int | float) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value) and low <= value <= high

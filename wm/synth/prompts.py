@@ -2,28 +2,26 @@
 
 from collections.abc import Sequence
 
-PLAN_FORMAT = """\
-{
-  "metadata": {"units": "meters", "coordinate_system": "z_up", "wall_thickness": 0.15, "default_ceiling_height": 2.8},
-  "rooms": [
-    {
-      "id": "kitchen",              letters, digits and underscores; no two alike
-      "name": "kitchen",            as it is called in the list of rooms
-      "floor_polygon": [[x, y], ...],  corners in metres, counter-clockwise, not crossing
-      "ceiling_height": 2.8,
-      "openings": [
-        {
-          "type": "door",           door or passage between two rooms, window to the outside
-          "wall_segment": [[x, y], [x, y]],  the side of floor_polygon it lies on
-          "position": 0.5,          metres from the start of that side to the near edge of the opening
-          "width": 0.9, "height": 2.1, "sill_height": 0.0
-        }
-      ]
-    }
-  ],
-  "objects": []
-}"""
-"""A commented sample of the floor plan JSON (design.md, "Floor plan JSON")."""
+PLAN_SAMPLE = """\
+{"metadata": {"units": "meters", "coordinate_system": "z_up", "wall_thickness": 0.15, "default_ceiling_height": 2.8},
+ "rooms": [
+  {"id": "hall", "name": "hall", "floor_polygon": [[0, 0], [5, 0], [5, 4], [0, 4]], "ceiling_height": 2.8, "openings": [
+    {"type": "door", "wall_segment": [[5, 0], [5, 4]], "position": 0.5, "width": 0.9, "height": 2.1, "sill_height": 0},
+    {"type": "window", "wall_segment": [[0, 0], [5, 0]], "position": 1.8, "width": 1.4, "height": 1.4, "sill_height": 0.9}]},
+  {"id": "kitchen", "name": "kitchen", "floor_polygon": [[5, 0], [9, 0], [9, 4], [5, 4]], "ceiling_height": 2.8, "openings": [
+    {"type": "window", "wall_segment": [[9, 0], [9, 4]], "position": 1.2, "width": 1.4, "height": 1.3, "sill_height": 1.0}]}
+ ],
+ "objects": []}"""
+"""A valid floor plan (design.md, "Floor plan JSON")."""
+
+PLAN_FORMAT = f"""\
+{PLAN_SAMPLE}
+Lengths are metres. "id": letters, digits and underscores, no two alike; "name": as it is called in the list of rooms.
+"floor_polygon": corners counter-clockwise, seen from above; it may have more than four of them.
+"type": door or passage between two rooms, window to the outside; a door or passage is listed by one of its rooms.
+"wall_segment": the side of floor_polygon that the opening lies on; "position": from the start of that side to the near edge of
+the opening. "objects" stays empty."""
+"""The JSON that is wanted, by example."""
 
 
 def image_prompt(theme: str, room: str, sights: Sequence[str] = (), *, has_reference: bool = True) -> str:
@@ -65,7 +63,7 @@ def plan_prompt(theme: str, rooms: Sequence[str], violations: Sequence[str] = ()
     parts = [
         f"Design one storey of a building. Theme: {theme}.",
         f"It has these rooms, one for each line:\n{listed}\nYou may add corridors or halls that connect them, nothing else.",
-        "Answer with one JSON object and no other text, in this form (the remarks are not part of it):\n" + plan_format,
+        "Answer with one JSON object and no other text, in this form:\n" + plan_format,
         "Neighbouring rooms share their wall's line exactly and never overlap; there are no gaps between them. The outline of a "
         "room is the middle of a shared wall and the outer face of an outside wall. Doors and passages lie where two rooms "
         "touch, windows where nothing is behind the wall. Keep 0.3 m of wall beside every opening and between openings, and "

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from wm.synth.language.building import Building
-from wm.synth.language.cluster import Rooms, around, corridor_width, two_rows
+from wm.synth.language.cluster import SLENDER, Rooms, around, passage_width, two_rows
 from wm.synth.language.programme import Space, add_space
 from wm.synth.language.rows import Cell, Row, cell_area, is_small, lay_row, shift, stretch
 
@@ -22,7 +22,7 @@ def node_with_bars(
 ) -> Rooms:
     """A house of any size: the first core is the node, the others lead along bars; missing corridors are added to `spaces`."""
     node, *corridors = _node_first(cores, len(cells), spaces, building, rng)
-    if spaces[cores[0]].kind.name in ("great hall", "atrium", "hall") and node != cores[0]:
+    if node != cores[0] and spaces[cores[0]].kind.name not in SLENDER:  # the hall is a room at the gallery's end
         corridors.remove(cores[0])
         cells = [Cell(cores[0]), *cells]
     plain = [cell for cell in cells if cell.small is None and not is_small(spaces[cell.host])]
@@ -31,13 +31,14 @@ def node_with_bars(
     count = max(1, -(-len(cells) // BAR_CELLS))
     cells += [Cell(i) for i in corridors[count:]]  # more halls than lead to rooms are rooms themselves
     corridors = corridors[:count] + [add_space(spaces, "corridor", building, rng) for _ in range(count - len(corridors))]
-    direct = count if count <= 2 and len(cells) >= 5 * count else 0  # rooms along the side of the node that has no bars
+    slender = spaces[node].kind.name in SLENDER
+    one_side = count == 1 or (slender and count < 4 and rng.random() < 0.5)
+    direct = min(count, 2) if one_side and len(cells) >= 5 * count else 0  # rooms along the side that has no bars
     row = lay_row(cells[:direct], spaces, rng) if direct else Row(())
     cells = cells[direct:]
     groups = [cells[len(cells) * k // count : len(cells) * (k + 1) // count] for k in range(count)]
     bars = [_bar(corridor, group, spaces, building, rng) for corridor, group in zip(corridors, groups)]
-    both = count >= 4 or (count >= 2 and not direct and rng.random() < 0.6)
-    half = (count + 1) // 2 if both else count
+    half = count if one_side else (count + 1) // 2
     north, north_end = _stack(bars[:half], corridors[:half], rng)
     south, south_end = _stack(bars[half:], corridors[half:], rng)
     area = 1e4 * spaces[node].area
@@ -64,7 +65,7 @@ def _node_first(
     """The cores with the node in front: a hall for one or two bars, a gallery or corridor where it has to be long."""
     if cells <= 2 * BAR_CELLS + 2:
         return list(cores)
-    slender = [i for i in cores if spaces[i].kind.name in ("gallery", "corridor")]
+    slender = [i for i in cores if spaces[i].kind.name in SLENDER]
     slender = slender or [add_space(spaces, "gallery", building, rng)]
     return [slender[0], *(i for i in cores if i != slender[0])]
 
@@ -73,7 +74,7 @@ def _bar(corridor: int, cells: list[Cell], spaces: Sequence[Space], building: Bu
     """A corridor from (0, 0) along x with rooms north and south of it and perhaps one at its far end."""
     east = cells[-1:] if len(cells) >= 3 and rng.random() < 0.6 else []
     north, south = two_rows(cells[: len(cells) - len(east)], spaces, rng)
-    return around(corridor, north, south, east, [], spaces, rng, width=corridor_width(building, rng))
+    return around(corridor, north, south, east, [], spaces, rng, width=passage_width(spaces[corridor], building, rng))
 
 
 def _stack(bars: Sequence[Rooms], corridors: Sequence[int], rng: np.random.Generator) -> tuple[list[tuple[Rooms, int]], int]:

@@ -13,6 +13,7 @@ from wm.synth.language.programme import CIRCULATION, Space
 from wm.synth.language.rows import LIMB, Cell, Rect, Row, cell_area, is_small, lay_row, shift, stretch
 
 CONTACT = 180  # cm of wall that a door with its jambs needs between two rooms
+SLENDER = ("corridor", "gallery")
 CORE_WIDTHS = (320, 680)  # of a core that is a room
 Rooms = dict[int, list[Rect]]
 """The rectangles that make each room, by index of its space."""
@@ -37,7 +38,7 @@ def cluster(core: int, cells: Sequence[Cell], spaces: Sequence[Space], building:
         ends = int(rng.integers(0, 3)) if len(cells) >= 4 else 0
         west, east = cells[: int(ends > 0)], cells[len(cells) - int(ends == 2) :]
         north, south = two_rows(cells[len(west) : len(cells) - len(east)], spaces, rng)
-        return around(core, north, south, east, west, spaces, rng, width=corridor_width(building, rng))
+        return around(core, north, south, east, west, spaces, rng, width=passage_width(spaces[core], building, rng))
     patterns = _PATTERNS[len(cells)]
     if spaces[core].kind.zone != CIRCULATION:  # a living room keeps a side to the open
         patterns = tuple(p for p in patterns if p[0] == "0" or p[3] == "0") or patterns
@@ -60,8 +61,10 @@ def two_rows(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Gene
     return north, south
 
 
-def corridor_width(building: Building, rng: np.random.Generator) -> int:
-    return round(10 * draw(building.corridor, rng)) * 10
+def passage_width(space: Space, building: Building, rng: np.random.Generator) -> int:
+    """Of a corridor, or of a gallery that serves as one."""
+    width = round(10 * draw(building.corridor, rng)) * 10
+    return width if space.kind.name == "corridor" else width + LIMB // 2
 
 
 def around(
@@ -79,7 +82,7 @@ def around(
     area = 1e4 * spaces[core].area
     alone = round(float(np.sqrt(area * rng.uniform(1.0, 1.6))) / 10) * 10
     length = _common_length(*(0 if _all_small(row, spaces) else row.length for row in (north, south))) or alone
-    length = max(length, north.length, south.length)
+    length = max(length, north.shortest, south.shortest)
     if width is None:
         length = max(length, 400)
         width = round(min(max(area / length, CORE_WIDTHS[0]), CORE_WIDTHS[1]) / 10) * 10
@@ -112,7 +115,7 @@ def _fit(row: Row, length: int, spaces: Sequence[Space], rng: np.random.Generato
     """The row stretched to the core's length, or put at one end of it where it is much shorter or all of it small."""
     if not row.slots or row.length == length:
         return row
-    if row.length >= 0.78 * length and not _all_small(row, spaces):
+    if row.length > length or (row.length >= 0.78 * length and not _all_small(row, spaces)):
         return stretch(row, length)
     return shift(row, 0 if rng.random() < 0.5 else length - row.length)
 
@@ -135,8 +138,9 @@ def _end_row(cells: Sequence[Cell], spaces: Sequence[Space], width: int, high: i
     fitting = []
     for y0, y1 in spans:
         if not is_small(spaces[cells[0].host]) and 0.55 <= area * len(cells) / max(y1 - y0, 1) ** 2 <= 1.8:
-            row = shift(stretch(_end_cells(cells, spaces, area / (y1 - y0), rng), y1 - y0), y0)
-            if _in_contact(row, width):
+            row = _end_cells(cells, spaces, area / (y1 - y0), rng)
+            row = shift(stretch(row, max(y1 - y0, row.shortest)), y0)
+            if row.length == y1 - y0 and _in_contact(row, width):
                 fitting.append(row)
     if fitting:
         return fitting[int(rng.integers(len(fitting)))]

@@ -13,7 +13,7 @@ from jaxtyping import Int
 
 from wm.synth.language.bars import node_with_bars
 from wm.synth.language.building import Building
-from wm.synth.language.cluster import Rooms, cluster
+from wm.synth.language.cluster import SLENDER, Rooms, cluster
 from wm.synth.language.programme import CIRCULATION, PUBLIC, Space, add_space
 from wm.synth.language.rows import Cell, is_small, make_cells
 
@@ -57,6 +57,7 @@ def _pick_cores(spaces: list[Space], building: Building, rng: np.random.Generato
     """The rooms that lead to others, hub first, and the rest."""
     leading = [i for i, space in enumerate(spaces) if space.kind.zone == CIRCULATION]
     leading.sort(key=lambda i: (_HUBS.index(spaces[i].kind.name), i))
+    leading = leading[:1] + [i for i in leading[1:] if spaces[i].kind.name in SLENDER]  # a second great hall is a room to go to
     rest = [i for i in range(len(spaces)) if i not in leading]
     if not leading and len(rest) > 6:
         leading = [add_space(spaces, "corridor", building, rng)]

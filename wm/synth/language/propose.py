@@ -11,6 +11,7 @@ from wm.geometry.plan import FloorPlan, PlanError, parse_plan
 from wm.synth.backends import LanguageBackend
 from wm.synth.language.programme import CIRCULATION, kind_of
 
+_LONGEST_NAME = 200  # as in wm.geometry.plan
 _SHOWN = 12  # violations in an error message
 
 
@@ -55,11 +56,14 @@ def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed
       max_iterations: answers that are looked at, at least 1.
 
     Raises:
-      ValueError: there are no rooms, or an entry is empty.
+      ValueError: there are no rooms, or an entry is no name.
       ProposalError: every answer broke a rule; the message lists the violations of the last.
     """
-    if not rooms or any(not room.strip() for room in rooms):
-        raise ValueError(f"the room programme must name at least one room and leave no name empty, not {rooms!r}")
+    if not rooms:
+        raise ValueError("the room programme is empty; name at least one room")
+    for room in rooms:
+        if not room.strip() or not room.isprintable() or len(room) > _LONGEST_NAME:
+            raise ValueError(f"the room programme names {room!r}; a name has 1 to {_LONGEST_NAME} printable characters")
     transcript: list[Attempt] = []
     previous, violations = None, []
     for _ in range(max(max_iterations, 1)):

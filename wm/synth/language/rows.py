@@ -46,6 +46,10 @@ class Row:
     def length(self) -> int:
         return self.slots[-1].u + self.slots[-1].width - self.slots[0].u if self.slots else 0
 
+    @property
+    def shortest(self) -> int:
+        return sum(_least_width(slot) for slot in self.slots)
+
     def rooms(self) -> dict[int, list[Rect]]:
         """The rectangles that make each room, in the row's frame."""
         rooms: dict[int, list[Rect]] = {}
@@ -107,11 +111,14 @@ def lay_row(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Gener
 
 
 def stretch(row: Row, length: int) -> Row:
-    """The row made exactly this long; small rooms keep their size, the others share the difference."""
+    """The row made this long, at least `row.shortest`; small rooms keep their size, the others share the difference."""
     widths = [slot.width for slot in row.slots]
-    weights = [width if width >= NARROWEST else 0.25 * width for width in widths]
     slack = length - sum(widths)
-    ends = np.round(np.cumsum(weights) / sum(weights) * slack / 10).astype(int) * 10
+    if slack > 0:
+        weights = [width if width >= NARROWEST else 0.25 * width for width in widths]
+    else:  # what each can spare
+        weights = [slot.width - _least_width(slot) for slot in row.slots]
+    ends = np.round(np.cumsum(weights) / max(sum(weights), 1) * slack / 10).astype(int) * 10
     slots, u = [], 0
     for slot, width, gain in zip(row.slots, widths, np.diff(ends, prepend=0).tolist()):
         corner = slot.corner
@@ -133,6 +140,12 @@ def shift(row: Row, du: int) -> Row:
             corner = (corner[0] + du, corner[1], corner[2] + du, corner[3])
         moved.append(dataclasses.replace(slot, u=slot.u + du, corner=corner))
     return Row(tuple(moved))
+
+
+def _least_width(slot: Slot) -> int:
+    if slot.corner is not None:
+        return min(slot.width, slot.corner[2] - slot.corner[0] + LIMB)
+    return min(slot.width, NARROWEST)
 
 
 def _lay_cell(cell: Cell, spaces: Sequence[Space], u: int, depth: int, rng: np.random.Generator) -> Slot:
@@ -163,6 +176,6 @@ def _without_corner(whole: Rect, corner: Rect) -> list[Rect]:
     return [beside, beyond]
 
 
-def _clip(value: float, low: float, high: float) -> int:
+def _clip(value: int | float, low: int | float, high: int | float) -> int:
     """To whole decimetres within the limits."""
     return round(float(min(max(value, low), max(low, high))) / 10) * 10

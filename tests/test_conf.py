@@ -1,0 +1,139 @@
+"""Every choice of conf/ composes, and each changes what it says and nothing else."""
+
+import dataclasses
+import functools
+
+import pytest
+
+from wm.run import load_config, options
+from wm.schema import RunConfig
+from wm.synth.backends import CHOICES
+from wm.validate import RANGES, ConfigError, validate_config
+
+SCENES = {"gothic": 6, "scandinavian": 4, "beach_house": None, "roman_estate": None, "clockwork_garden": None}
+VARIANTS = {
+    "full": {},
+    "depth_objects": {"condition.wall_texture": False},
+    "depth_walls_bboxes": {"condition.objects": "boxes"},
+    "depth_only": {"condition.wall_texture": False, "condition.objects": "none"},
+    "no_edge_recall": {"verify.enabled": False},
+    "no_pcd_init": {"fit.init": "random"},
+    "no_depth_loss": {"fit.depth_weight": 0.0},
+    "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0},
+}
+PRESETS = {"draft": (344, 192), "standard": (688, 384), "paper": (1376, 768)}
+
+
+def leaves(config) -> dict:
+    found = {}
+    for field in dataclasses.fields(config):
+        value = getattr(config, field.name)
+        if dataclasses.is_dataclass(value):
+            found |= {f"{field.name}.{key}": inner for key, inner in leaves(value).items()}
+        else:
+            found[field.name] = value
+    return found
+
+
+def test_the_groups_offer_what_they_should():
+    assert set(options("scene")) == set(SCENES)
+    assert set(options("variant")) == set(VARIANTS)
+    assert set(options("preset")) == set(PRESETS)
+    for group, names in CHOICES.items():
+        assert set(options(group)) == set(names)
+
+
+@functools.cache
+def plain_config(scene: str) -> RunConfig:
+    return load_config([f"+scene={scene}"])
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_a_variant_changes_exactly_what_its_row_says(scene, variant):
+    plain = leaves(plain_config(scene))
+    varied = leaves(load_config([f"+scene={scene}", f"variant={variant}"]))
+    changed = {key: value for key, value in varied.items() if value != plain[key]}
+    assert changed == VARIANTS[variant] | ({} if variant == "full" else {"variant": variant})
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_presets_set_the_image_size(preset):
+    config = load_config(["+scene=gothic", f"preset={preset}"])
+    assert (config.cameras.width, config.cameras.height) == PRESETS[preset]
+    assert config.preset == preset
+    assert config.scene == plain_config("gothic").scene
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_scenes_have_the_rooms_they_should(scene):
+    config = plain_config(scene)
+    assert config.scene.name == scene
+    assert len(config.scene.rooms) == SCENES[scene] or (SCENES[scene] is None and 4 <= len(config.scene.rooms) <= 8)
+
+
+def test_the_standard_preset_is_the_schema():
+    config = load_config(["+scene=gothic"])
+    assert leaves(config) == leaves(RunConfig()) | {
+        "scene.name": "gothic",
+        "scene.theme": config.scene.theme,
+        "scene.rooms": config.scene.rooms,
+    }
+
+
+def test_a_scene_of_ones_own():
+    config = load_config(["scene.name=den", "scene.theme='a snug cabin'", "scene.rooms=[hall,kitchen]"])
+    assert config.scene.rooms == ["hall", "kitchen"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "no scene: add .scene=NAME, one of beach_house, clockwork_garden, gothic, roman_estate, scandinavian"),
+        (["scene=gothic"], "write .scene=NAME, one of beach_house, .*gothic"),
+        (["+scene=gotik"], "scene=gotik: no such scene; choose one of beach_house, .*scandinavian"),
+        (["preset=fast"], "preset=fast: no such preset; choose one of draft, paper, standard"),
+        (["variant=none"], "variant=none: no such variant; choose one of depth_objects, .*no_pcd_init"),
+        (["image=gan"], "image=gan: no such image; choose one of procedural"),
+        (["image.name=gan"], "image.name='gan': choose one of procedural"),
+        (["language.name=gpt"], "language.name='gpt': choose one of grammar"),
+        (["fit.stepz=3"], "fit.stepz: no such key; did you mean fit.steps. fit has init, .*steps"),
+        (["+fit.stepz=3"], "fit.stepz: no such key"),
+        (["++colour.depth=3"], "colour: no such key; .*the configuration has scene, plan"),
+        (["sed=3"], "sed: no such key; did you mean seed"),
+        (["fit.steps=many"], "fit.steps: .*many.*"),
+        (["fit=3"], "fit: "),
+        (["fit.init=cubes"], "fit.init='cubes': choose one of flat, isotropic, random"),
+        (["condition.objects=some"], "condition.objects='some': choose one of textured, boxes, none"),
+        (["seed=-1", "cameras.fov=400"], "cameras.fov=400.0: must be a number from 5 to 150; seed=-1: must be a number from 0"),
+        (["fit.spacing=nan"], "fit.spacing=nan: must be a number from 0.001 to 1"),
+        (["fit.lr_sh=inf"], "fit.lr_sh=inf: must be a number from 0 to 10"),
+        (["verify.low=0.5"], "verify.low=0.5: must not exceed verify.high=0.3"),
+        (["scene.name=../../up"], "scene.name='../../up': names a folder"),
+        (["scene.rooms=[]"], "scene.rooms=.*name at least one room"),
+        (["scene.rooms=[hall,' ']"], "scene.rooms has ' '"),
+        (["scene.rooms=hall"], "scene.rooms: "),
+        (["scene.theme=' '"], "scene.theme.*say in words"),
+        (["seed=["], "cannot read the argument 'seed=\\['"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_named_in_one_line_with_what_would_be_right(arguments, said):
+    scene = [] if not arguments or "scene=" in arguments[0] else ["+scene=gothic"]
+    with pytest.raises(ConfigError, match=said) as caught:
+        load_config([*scene, *arguments])
+    assert "\n" not in str(caught.value)
+
+
+def test_ranges_are_of_keys_that_exist_and_cover_every_number():
+    numbers = {
+        key for key, value in leaves(RunConfig()).items() if isinstance(value, int | float) and not isinstance(value, bool)
+    }
+    assert set(RANGES) == numbers
+
+
+def test_all_faults_are_named_at_once():
+    config = load_config(["+scene=gothic"])
+    config.seed = -1
+    config.fit.init = "cubes"
+    with pytest.raises(ConfigError, match=r"fit\.init='cubes'.*seed=-1"):
+        validate_config(config, backends=CHOICES)

@@ -1,0 +1,157 @@
+"""The command line: where a run goes, what is said when it cannot, and the exit code."""
+
+import errno
+import os
+import subprocess
+import sys
+import types
+from pathlib import Path
+
+import pytest
+
+from wm import run
+from wm.geometry import PlanError, Violation
+
+FAKE = """
+import sys, types
+def pipeline(config, folder):
+    print(config.scene.name, config.variant, folder)
+    {action}
+sys.modules["wm.pipeline"] = types.SimpleNamespace(run=pipeline)
+from wm.run import main
+main()
+"""
+
+
+def command(*arguments: str, cwd: Path, action: str | None = None) -> subprocess.CompletedProcess:
+    """`python -m wm.run`, or the same door before a pipeline that only prints and then does `action`."""
+    start = ["-m", "wm.run"] if action is None else ["-c", FAKE.format(action=action)]
+    env = os.environ | {"PYTHONPATH": str(Path(run.__file__).parents[1])}
+    return subprocess.run([sys.executable, *start, *arguments], capture_output=True, text=True, cwd=cwd, env=env, check=False)
+
+
+@pytest.fixture
+def door(monkeypatch, tmp_path, capsys):
+    """Calls `main` in this process with a pipeline that does `action`; gives exit code, stderr and the calls."""
+
+    def call(*arguments: str, action=lambda config, folder: None):
+        calls = []
+
+        def pipeline(config, folder):
+            calls.append((config, folder))
+            action(config, folder)
+
+        monkeypatch.chdir(tmp_path)
+        monkeypatch.setenv("HYDRA_FULL_ERROR", "1")
+        monkeypatch.setattr(sys, "argv", ["wm", *arguments])
+        monkeypatch.setitem(sys.modules, "wm.pipeline", types.SimpleNamespace(run=pipeline))
+        code = 0
+        try:
+            run.main()
+        except SystemExit as exit_:
+            code = exit_.code
+        return code, capsys.readouterr().err, calls
+
+    return call
+
+
+def raising(error: BaseException):
+    def action(config, folder):
+        raise error
+
+    return action
+
+
+def test_the_run_folder_is_scene_variant_seed(door, tmp_path):
+    code, said, calls = door("+scene=gothic", "variant=depth_only", "seed=3")
+    assert (code, said) == (0, "")
+    config, folder = calls[0]
+    assert folder == tmp_path / "outputs/gothic/depth_only/3"
+    assert config.seed == 3 and config.verify.enabled and not config.condition.wall_texture
+    assert list(folder.iterdir()) == []  # nothing of Hydra's
+    assert Path.cwd() == tmp_path
+
+
+def test_output_names_another_folder_and_no_other_is_made(door, tmp_path):
+    _, _, calls = door("+scene=gothic", "output=here/there")
+    assert calls[0][1] == tmp_path / "here/there"
+    assert not (tmp_path / "outputs").exists()
+
+
+def test_hydra_may_say_where(door, tmp_path):
+    assert door("+scene=gothic", f"hydra.run.dir={tmp_path / 'x'}")[2][0][1] == tmp_path / "x"
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (OSError(errno.ENOSPC, "No space left on device", "views/a.png"), 1, "views/a.png: the disk is full"),
+        (PermissionError(errno.EACCES, "Permission denied", "plan.json"), 1, "plan.json: no permission to write or read here"),
+        (OSError(errno.EROFS, "Read-only file system", "plan.json"), 1, "plan.json: no permission"),
+        (RuntimeError("the painter\n  fell ill"), 1, "the painter; fell ill"),
+        (
+            PlanError((Violation("hall", "zero_area", "no area"),), "my.json"),
+            2,
+            "my.json: 1 violation; room hall: zero_area: no area",
+        ),
+        (KeyboardInterrupt(), 130, "the same command resumes"),
+    ],
+)
+def test_a_run_that_fails_says_one_line(door, error, code, said):
+    got, err, _ = door("+scene=gothic", action=raising(error))
+    assert got == code
+    assert said in err
+    assert err.startswith("wm: ") and err.count("\n") == 1
+
+
+def test_debug_shows_the_traceback(door):
+    with pytest.raises(RuntimeError, match="ill"):
+        door("+scene=gothic", "debug=true", action=raising(RuntimeError("ill")))
+
+
+@pytest.mark.parametrize(
+    "arguments", [["+scene=gothic", "fit.stepz=1"], ["+scene=gothic", "fit.init=cubes"], ["+scene=nowhere"], []]
+)
+def test_input_that_cannot_be_run_exits_with_2_and_one_line(door, arguments):
+    code, err, calls = door(*arguments)
+    assert (code, calls) == (2, [])
+    assert err.startswith("wm: ") and err.count("\n") == 1
+
+
+def test_a_file_where_the_folder_should_be(door, tmp_path):
+    (tmp_path / "outputs").write_text("not a folder")
+    code, err, calls = door("+scene=gothic")
+    assert (code, calls) == (1, [])
+    assert "a file stands where a folder is needed" in err and err.count("\n") == 1
+
+
+def test_no_scene_on_the_command_line_lists_the_scenes(tmp_path):
+    done = command(cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.startswith("wm: no scene") and "gothic" in done.stderr and done.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_help_lists_groups_and_examples(tmp_path):
+    done = command("--help", cwd=tmp_path)
+    assert done.returncode == 0
+    assert "python -m wm.run +scene=gothic" in done.stdout
+    assert "scene: beach_house, clockwork_garden, gothic, roman_estate, scandinavian" in done.stdout
+
+
+def test_a_sweep_runs_every_variant_although_one_fails(tmp_path):
+    action = "if config.variant == 'full': raise RuntimeError('ill')"
+    done = command("-m", "+scene=gothic", "variant=full,depth_only", cwd=tmp_path, action=action)
+    assert done.returncode == 1
+    assert [line.split()[1] for line in done.stdout.splitlines() if line.startswith("gothic")] == ["full", "depth_only"]
+    assert f"wm: {tmp_path}/outputs/gothic/full/0: ill" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert (tmp_path / "outputs/gothic/depth_only/0").is_dir()
+
+
+def test_interrupted_by_a_signal(tmp_path):
+    done = command(
+        "+scene=gothic", cwd=tmp_path, action="import os, signal; os.kill(os.getpid(), signal.SIGINT); import time; time.sleep(9)"
+    )
+    assert done.returncode == 130
+    assert done.stderr == "wm: interrupted; the same command resumes\n"
