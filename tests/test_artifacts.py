@@ -93,8 +93,8 @@ def test_a_failed_write_leaves_the_old_file_and_no_litter(tmp_path):
     target = tmp_path / "x.bin"
     write_atomically(target, b"old")
 
-    def fill_the_disk(file):
-        file.write(b"half")
+    def fill_the_disk(path):
+        path.write_bytes(b"half")
         raise OSError(errno.ENOSPC, "No space left on device")
 
     with pytest.raises(OSError, match="No space"):

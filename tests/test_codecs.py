@@ -34,6 +34,11 @@ def test_png_round_trip_is_exact_and_bytes_are_stable(rng):
     assert codecs.encode_png(image) == codecs.encode_png(image.copy())
 
 
+def test_mask_round_trip_is_exact(rng):
+    mask = rng.random((17, 31)) < 0.5
+    assert np.array_equal(codecs.decode_mask(codecs.encode_mask(mask)), mask)
+
+
 def test_depth_round_trip_is_within_half_a_step_and_misses_stay_zero(rng):
     depth = rng.uniform(0.1, 60, (9, 13)).astype(np.float32)
     depth[0, 0] = 0

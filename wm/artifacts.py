@@ -14,7 +14,7 @@ import os
 import pathlib
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +27,7 @@ MANIFEST = "manifest.json"
 LOCK = ".lock"
 TEMPORARY = ".part-"
 
-Writer = Callable[[BinaryIO], Any]
+Writer = Callable[[pathlib.Path], Any]
 
 
 class ArtifactError(RuntimeError):
@@ -55,20 +55,20 @@ def write_atomically(path: pathlib.Path, write: Writer | bytes | str) -> None:
 
     Args:
       path: the file; its folder is made.
-      write: the content, or a function that writes it to an open binary file.
+      write: the content, or a function that writes it to the path it is given.
 
     Raises:
       OSError: the disk is full or the folder is not writable; no partial file remains.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=TEMPORARY, suffix=path.suffix)
+    os.close(handle)
     try:
-        with os.fdopen(handle, "wb") as file:
-            if callable(write):
-                write(file)
-            else:
-                file.write(write.encode() if isinstance(write, str) else write)
-            file.flush()
+        if callable(write):
+            write(pathlib.Path(name))
+        else:
+            pathlib.Path(name).write_bytes(write.encode() if isinstance(write, str) else write)
+        with open(name, "rb+") as file:
             os.fsync(file.fileno())
         os.chmod(name, 0o644)
         os.replace(name, path)

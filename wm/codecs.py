@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float, UInt8
+from jaxtyping import Bool, Float, UInt8
 from PIL import Image
 
 from wm.types import Camera, SceneObject, View
@@ -30,6 +30,18 @@ def encode_png(rgb: UInt8[np.ndarray, "h w 3"]) -> bytes:
 def decode_png(data: bytes) -> UInt8[np.ndarray, "h w 3"]:
     with Image.open(io.BytesIO(data)) as image:
         return np.asarray(image.convert("RGB"))
+
+
+def encode_mask(mask: Bool[np.ndarray, "h w"]) -> bytes:
+    """A 1-bit PNG."""
+    buffer = io.BytesIO()
+    Image.fromarray(mask).save(buffer, format="PNG")
+    return buffer.getvalue()
+
+
+def decode_mask(data: bytes) -> Bool[np.ndarray, "h w"]:
+    with Image.open(io.BytesIO(data)) as image:
+        return np.asarray(image.convert("1")).astype(bool)
 
 
 def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:
@@ -70,13 +82,11 @@ def encode_objects(objects: Sequence[SceneObject]) -> bytes:
 def decode_objects(data: bytes) -> tuple[SceneObject, ...]:
     arrays = decode_arrays(data)
     table = json.loads(arrays["table"].tobytes())
-    return tuple(
-        SceneObject(
-            **{**row, "slots": tuple(row["slots"])},
-            **{name: arrays[f"{k:05d}.{name}"] for name in _OBJECT_ARRAYS},
-        )
-        for k, row in enumerate(table)
-    )
+    objects = []
+    for k, row in enumerate(table):
+        fields: dict[str, Any] = {name: arrays[f"{k:05d}.{name}"] for name in _OBJECT_ARRAYS}
+        objects.append(SceneObject(**row | {"slots": tuple(row["slots"])}, **fields))
+    return tuple(objects)
 
 
 def object_summary(objects: Sequence[SceneObject], rooms: Sequence[str]) -> list[dict[str, Any]]:

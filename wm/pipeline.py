@@ -1,0 +1,101 @@
+"""The stages in order: plan, structure, furnish, cameras, paint, reconstruct, evaluate, report.
+
+A stage's key is a digest of its configuration, the seed and the keys of its inputs, so a resumed run does again only what is
+missing, and ends with the same bytes as an undisturbed one. Each stage is a function of `wm.stages`.
+"""
+
+import dataclasses
+import importlib.metadata
+import json
+import os
+import pathlib
+
+import jax
+
+import wm
+from wm.artifacts import open_run_folder
+from wm.meter import StageMeter
+from wm.schema import RunConfig
+from wm.stages.evaluation import METRICS, evaluate
+from wm.stages.job import TIMINGS, Job
+from wm.stages.painting import paint
+from wm.stages.reconstruction import reconstruct
+from wm.stages.reporting import REPORT, report
+from wm.stages.scene import build_scene
+from wm.synth.backends import make_backend
+
+_RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
+_NOT_IDENTITY = ("output", "overwrite", "debug", "report")
+"""Parts of the configuration that change no stage's result."""
+
+
+def run(config: RunConfig, folder: pathlib.Path) -> dict:
+    """One run, from the theme to the report.
+
+    Args:
+      config: all of it, checked (wm.validate).
+      folder: the run folder; one that holds part of the same run is continued.
+
+    Returns:
+      What `metrics.json` holds.
+
+    Raises:
+      ArtifactError: the folder is in use, or holds another run.
+      PlanError, ProposalError, ValueError: the plan or the views cannot be made as asked; the message says why.
+      OSError: the folder cannot be written.
+    """
+    _use_every_core()
+    # A view count of nothing is found here and not after an hour of work.
+    if config.cameras.perimeter + config.cameras.overhead == 0 and not config.cameras.doorway:
+        raise ValueError("cameras: no views at all: perimeter and overhead are 0 and doorway is false")
+    with open_run_folder(folder, _header(config), overwrite=config.overwrite) as store:
+        job = Job(config=config, folder=store, meter=StageMeter(_earlier_timings(folder)))
+        scene = build_scene(job)
+        image = make_backend("image", config.image, scene.context)
+        depth = make_backend("depth", config.depth, scene.context)
+        painted = paint(job, scene, image, depth)
+        result = reconstruct(job, scene, painted, image)
+        metrics = evaluate(job, scene, painted, result, image)
+        metrics = report(job, scene, painted, result, metrics)
+        print(_summary(folder, job, metrics))
+        return metrics
+
+
+def _use_every_core() -> None:
+    """One JAX device per core: views and rooms in parallel beat threads inside an operation (design.md section 5)."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    try:
+        jax.config.update("jax_num_cpu_devices", cores)
+    except RuntimeError:
+        return  # a caller has started JAX already; its devices are used as they are
+
+
+def _header(config: RunConfig) -> dict:
+    versions = {"wm": wm.__version__} | {name: importlib.metadata.version(name) for name in _RECORDED}
+    identity = {name: value for name, value in dataclasses.asdict(config).items() if name not in _NOT_IDENTITY}
+    return {"config": identity, "seed": config.seed, "versions": versions}
+
+
+def _earlier_timings(folder: pathlib.Path) -> dict:
+    """What an interrupted run has measured; nothing if the file is not there or not whole."""
+    try:
+        rows = json.loads((folder / TIMINGS).read_text())
+        return {name: {"seconds": float(row["seconds"]), "peak_gib": float(row["peak_gib"])} for name, row in rows.items()}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return {}
+
+
+def _summary(folder: pathlib.Path, job: Job, metrics: dict) -> str:
+    rows = [f"  {name:<12}{row['seconds']:9.1f} s {row['peak_gib']:7.2f} GiB" for name, row in job.meter.stages.items()]
+    figures = (("psnr", "PSNR", "{:.2f} dB"), ("m_mae", "M-MAE", "{:.4f} m"), ("n_ang_deg", "N-Ang", "{:.1f} deg"))
+    held_out = ", ".join(f"{label} {form.format(metrics[key])}" for key, label, form in figures if metrics.get(key) is not None)
+    where = folder / REPORT if job.config.report.enabled else folder / METRICS
+    return "\n".join(
+        [
+            f"\n{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
+            *rows,
+            f"  {'in all':<12}{metrics['seconds']:9.1f} s {metrics['peak_gib']:7.2f} GiB",
+            f"held-out: {held_out}" if held_out else "held-out: no ground truth with this image backend",
+            f"results: {where}",
+        ]
+    )

@@ -1,0 +1,55 @@
+"""Renders of a scene whose gaussians are kept by room: only the rooms that a camera may see are projected."""
+
+from collections.abc import Sequence
+
+import jax
+import numpy as np
+
+from wm.schema import RasterSettings
+from wm.splat.frozen import join_columns, pad_columns, visible_columns
+from wm.splat.room_fit import Capacity, host, pad_gaussians, plan_with
+from wm.splat.step import project_view, rasterize_view
+from wm.types import Camera, Gaussians, Render
+
+_COLUMNS = 1.25
+"""Room for growth in the padded number of visible gaussians, so that most views share one compiled pass."""
+
+
+class SceneRenderer:
+    """Renders views of many rooms; padded sizes only grow, so a walk through a scene compiles a handful of times."""
+
+    def __init__(self, rooms: Sequence[Gaussians], raster: RasterSettings = RasterSettings(), *, device: jax.Device | None = None):
+        """`rooms` holds the gaussians of each room, on the host; `device` renders (JAX's default if None)."""
+        largest = max((len(room.opacity_logits) for room in rooms), default=0)
+        self._device = device or jax.devices()[0]
+        self._rooms = [jax.device_put(pad_gaussians(room, largest), self._device) if largest else None for room in rooms]
+        self._raster = raster
+        self._capacity = Capacity()
+        self._columns = 1
+
+    def render(self, camera: Camera, rooms: Sequence[int], scaffold_depth: np.ndarray | None = None) -> Render:
+        """What the camera sees (NumPy leaves), over black.
+
+        Args:
+          camera: any camera.
+          rooms: indices of the rooms it may see; the others are not projected.
+          scaffold_depth: [h, w] metres; gaussians well behind it are left out. They would show only through surfaces.
+        """
+        camera = jax.tree.map(lambda x: np.asarray(x, np.float32), camera)
+        depth = np.zeros((camera.height, camera.width), np.float32) if scaffold_depth is None else scaffold_depth
+        on_device = jax.device_put(camera, self._device)
+        seen = [
+            visible_columns(host(project_view(self._rooms[room], on_device, raster=self._raster)), depth)
+            for room in rooms
+            if self._rooms[room] is not None
+        ]
+        if not seen:
+            empty = np.zeros((camera.height, camera.width), np.float32)
+            return Render(rgb=np.zeros((camera.height, camera.width, 3), np.float32), depth=empty, alpha=empty)
+        projected = join_columns(*seen)
+        count = projected.opacity.shape[-1]
+        if count > self._columns:
+            self._columns = int(count * _COLUMNS)
+        projected = pad_columns(projected, self._columns)
+        plan = plan_with(projected, camera.width, camera.height, self._raster, self._capacity)
+        return host(rasterize_view(projected, plan, width=camera.width, height=camera.height, raster=self._raster))

@@ -1,0 +1,140 @@
+"""Evaluate: the metrics of design.md section 6, on views that were never trained on."""
+
+import dataclasses
+import itertools
+import json
+from collections.abc import Sequence
+
+import jax.numpy as jnp
+import numpy as np
+
+from wm import codecs
+from wm.artifacts import json_text
+from wm.geometry import cast, coverage, navigability, visible_rooms
+from wm.splat.metrics import depth_error, normal_error, one_surface, psnr, reprojection_error
+from wm.splat.scene_render import SceneRenderer
+from wm.splat.ssim import ssim
+from wm.stages.job import Job
+from wm.stages.painting import Painted
+from wm.stages.reconstruction import Reconstruction
+from wm.stages.scene import Scene
+from wm.synth.backends import ImageBackend
+from wm.types import GBuffer, Render, SurfaceKind, View
+
+EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Seen:
+    """A view of the fitted scene beside the scaffold; 8-bit colour."""
+
+    view: View
+    render: Render
+    gbuffer: GBuffer
+    scaffold_depth: np.ndarray  # [h, w] metres; 0 where there is none, or a window
+
+
+def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, image: ImageBackend) -> dict:
+    """The run's metrics but for its time and memory."""
+    with job.stage("evaluate"):
+        config = job.config
+        key = job.key("evaluate", result.key, config.evaluate, config.navigation)
+        if not job.folder.has("evaluate", key):
+            job.folder.drop_others("heldout/", set())
+            metrics = _scene_metrics(job, scene, painted, result) | _heldout_metrics(job, scene, result, image, key)
+            clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
+            job.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
+        return json.loads((job.folder.path / EVALUATION).read_text())
+
+
+def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
+    """A view of the splats and of the scaffold."""
+    gbuffer = cast(scene.rays, view.camera)
+    kind = np.where(gbuffer.hit, scene.mesh.face_kind[gbuffer.face], -1)
+    sees = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
+    return Seen(
+        view=view,
+        render=renderer.render(view.camera, [int(room) for room in sees], gbuffer.depth),
+        gbuffer=gbuffer,
+        scaffold_depth=np.where(kind == SurfaceKind.PANE, np.float32(0), gbuffer.depth),
+    )
+
+
+def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict:
+    walk = navigability(scene.plan, scene.objects, job.config.navigation)
+    seen = coverage(scene.plan, scene.mesh, scene.views)
+    return {
+        "navigability": walk.share,
+        "navigability_body": walk.share_body,
+        "coverage_1": seen.once,
+        "coverage_3": seen.three,
+        "yield": painted.yield_share,
+        "atm": painted.atm,
+        "rooms": len(scene.plan.rooms),
+        "views": len(scene.views),
+        "gaussians": int(sum(len(room.opacity_logits) for room in result.rooms)),
+    }
+
+
+def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, image: ImageBackend, key: str) -> dict:
+    renderer = SceneRenderer(result.rooms, job.config.raster)
+    truth = getattr(image, "truth", None)
+    rows: list[dict[str, float]] = []
+    with job.bar("evaluate", len(scene.heldout)) as bar:
+        for _, members in itertools.groupby(scene.heldout, key=lambda view: view.room):
+            seen = []
+            for view in members:
+                one = look(scene, renderer, view)
+                row = _alignment(scene, one)
+                files = {f"heldout/{view.name}.png": codecs.encode_png(_bytes(one.render.rgb))}
+                if truth is not None:
+                    world = truth(view)
+                    row |= _photometry(one.render.rgb, world)
+                    files[f"heldout/{view.name}.truth.png"] = codecs.encode_png(_bytes(world))
+                job.folder.save(f"heldout/{view.name}", key, files)
+                rows.append(row)
+                seen.append(one)
+                bar.update()
+            rows += _reprojection(seen, job.config.evaluate.min_overlap)
+    names = ("psnr", "ssim", "m_mae", "m_rmse", "n_cos", "n_ang_deg", "reproj_mae_norm", "reproj_absrel")
+    return {name: _mean([row[name] for row in rows if name in row]) for name in names}
+
+
+def _photometry(rgb: np.ndarray, world: np.ndarray) -> dict[str, float]:
+    clipped = np.clip(rgb, 0, 1)
+    return {"psnr": psnr(clipped, world), "ssim": float(ssim(jnp.asarray(clipped), jnp.asarray(world, jnp.float32)))}
+
+
+def _alignment(scene: Scene, seen: Seen) -> dict[str, float]:
+    depth = depth_error(seen.render.depth, seen.scaffold_depth)
+    surfaces = one_surface(_surface_of(scene, seen.gbuffer), seen.gbuffer.normal) & (seen.scaffold_depth > 0)
+    normal = normal_error(seen.render.depth, seen.view.camera, seen.gbuffer.normal, surfaces)
+    return {"m_mae": depth.mae, "m_rmse": depth.rmse, "n_cos": normal.cosine, "n_ang_deg": normal.angle}
+
+
+def _surface_of(scene: Scene, gbuffer: GBuffer) -> np.ndarray:
+    """[h, w] one number per object, and per kind and room of the structure; -1 where nothing is hit."""
+    mesh = scene.mesh
+    structure = (mesh.face_room + 1) * len(SurfaceKind) + mesh.face_kind
+    group = np.where(mesh.face_object >= 0, mesh.face_object + int(structure.max(initial=0)) + 1, structure)
+    return np.where(gbuffer.hit, group[gbuffer.face], -1).astype(np.int64)
+
+
+def _reprojection(seen: Sequence[Seen], min_overlap: float) -> list[dict[str, float]]:
+    """Every ordered pair of a room's views that share enough surface."""
+    rows = []
+    for a, b in itertools.permutations(seen, 2):
+        moved, into = (a.render.depth, a.view.camera, a.scaffold_depth), (b.render.depth, b.view.camera, b.scaffold_depth)
+        error = reprojection_error(*moved, *into, min_overlap=min_overlap)
+        if error is not None:
+            rows.append({"reproj_mae_norm": error.mae_norm, "reproj_absrel": error.absrel})
+    return rows
+
+
+def _mean(values: Sequence[float]) -> float | None:
+    finite = [value for value in values if np.isfinite(value)]
+    return float(np.mean(finite)) if finite else None
+
+
+def _bytes(rgb: np.ndarray) -> np.ndarray:
+    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)

@@ -1,0 +1,118 @@
+"""Paint: every view of the scene, each an entry of its own, so that a killed run goes on at the next view."""
+
+import dataclasses
+import json
+
+from wm import codecs
+from wm.artifacts import json_text
+from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, cast, object_boxes
+from wm.geometry.glb import object_nodes, save_glb
+from wm.stages.job import Job
+from wm.stages.scene import Scene
+from wm.synth.backends import DepthBackend, ImageBackend
+from wm.synth.paint import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
+from wm.synth.prompts import image_prompt
+from wm.types import SceneObject, View
+
+SCAFFOLD = "scaffold.glb"
+SUMMARY = "stages/paint.json"
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Painted:
+    """What the painting left: how it went, the key of its result, and the way back to each view."""
+
+    yield_share: float
+    atm: float | None
+    key: str
+    job: Job
+
+    def view(self, view: View) -> PaintedView:
+        """A finished view from the run folder."""
+        return read_view(self.job, view)
+
+
+def paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
+    """All views painted and stored, and the textured scaffold exported."""
+    with job.stage("paint"):
+        return _paint(job, scene, image, depth)
+
+
+def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
+    config = job.config
+    settings = PaintSettings(texture=config.texture, condition=config.condition, verify=config.verify)
+    shown = (config.cameras, config.texture, config.condition, config.verify, config.image, config.depth)
+    key = job.key("paint", scene.key, config.scene.theme, *shown)
+    names = {f"paint/{view.name}" for view in scene.views}
+    if job.folder.has("paint", key) and all(job.folder.has(name, key) for name in names):
+        summary = json.loads((job.folder.path / SUMMARY).read_text())
+        return Painted(yield_share=summary["yield"], atm=summary["atm"], key=key, job=job)
+    job.folder.drop_others("paint/", names)
+    scaffold = Scaffold(scene=scene.rays, objects=scene.objects)
+    with job.bar("paint", len(scene.views)) as bar:
+
+        def show(view: View, painted: PaintedView) -> None:
+            bar.set_postfix_str(view.name, refresh=False)
+            bar.update()
+
+        result = paint_scene(
+            scene.views,
+            scaffold,
+            _conditioning(scene, scaffold, config.condition.objects),
+            image,
+            depth,
+            prompt=lambda room: image_prompt(config.scene.theme, scene.plan.rooms[room].name),
+            seed=config.seed,
+            load=lambda view: read_view(job, view) if job.folder.has(f"paint/{view.name}", key) else None,
+            store=lambda view, painted: _store(job, scene, key, view, painted),
+            settings=settings,
+            progress=show,
+        )
+    _export(job, scene, result, key)
+    return Painted(yield_share=result.yield_share, atm=result.atm, key=key, job=job)
+
+
+def read_view(job: Job, view: View) -> PaintedView:
+    """A stored view."""
+    base = job.folder.path / "views"
+    record = json.loads((base / f"{view.name}.json").read_text())["painted"]
+    rgb = codecs.decode_png((base / f"{view.name}.png").read_bytes())
+    mask = codecs.decode_mask((base / f"{view.name}.mask.png").read_bytes())
+    return PaintedView(
+        rgb=rgb, mask=mask, condition=codecs.decode_png((base / f"{view.name}.condition.png").read_bytes()), **record
+    )
+
+
+def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView) -> None:
+    record = {name: getattr(painted, name) for name in ("recall", "attempts", "accepted", "reference")}
+    frame = codecs.camera_frame(view, scene.rooms[view.room])
+    base = f"views/{view.name}"
+    files = {
+        f"{base}.png": codecs.encode_png(painted.rgb),
+        f"{base}.mask.png": codecs.encode_mask(painted.mask),
+        f"{base}.condition.png": codecs.encode_png(painted.condition),
+        f"{base}.depth.png": codecs.encode_depth(cast(scene.rays, view.camera).depth),
+        f"{base}.json": json_text({"camera": frame, "painted": record}),
+    }
+    job.folder.save(f"paint/{view.name}", key, files)
+
+
+def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:
+    """The scaffold that the image model is shown: the true one, with boxes, or bare (paper, ablation of the modalities)."""
+    if objects == "textured" or not scene.objects:
+        return scaffold
+    shown: tuple[SceneObject, ...] = object_boxes(scene.objects) if objects == "boxes" else ()
+    return Scaffold(scene=build_ray_scene(assemble_scene(scene.context.structure, shown)), objects=shown)
+
+
+def _export(job: Job, scene: Scene, result: PaintSummary, key: str) -> None:
+    """`scaffold.glb`: the structure with the texture that the views left on it, and every object as a node of its own."""
+    nodes = [*atlas_nodes(result.atlas, scene.context.structure), *object_nodes(scene.objects)]
+    job.folder.save(
+        "paint",
+        key,
+        {
+            SCAFFOLD: lambda path: save_glb(path, nodes),
+            SUMMARY: json_text({"yield": result.yield_share, "atm": result.atm, "order": list(result.order)}),
+        },
+    )

@@ -1,0 +1,160 @@
+"""Reconstruct: gaussians from the painted views, room by room, with a checkpoint after each room and round."""
+
+import dataclasses
+import json
+from collections.abc import Mapping, Sequence
+
+import jax
+import numpy as np
+
+from wm import codecs
+from wm.artifacts import json_text
+from wm.geometry import cast, visible_rooms
+from wm.splat.cloud import initial_gaussians
+from wm.splat.ply import save_ply
+from wm.splat.scene_fit import fit_scene
+from wm.splat.training import TrainingView
+from wm.stages.job import Job
+from wm.stages.painting import Painted
+from wm.stages.scene import Scene
+from wm.synth.backends import ImageBackend
+from wm.types import Gaussians, GBuffer, SurfaceKind, View
+
+SPLATS, BY_ROOM, HISTORY = "splats.ply", "stages/splats.npz", "stages/history.json"
+CURVE_VIEWS = 2
+"""Held-out views of a room that the error curve is measured on while fitting; the evaluation uses all of them."""
+
+_LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Reconstruction:
+    """The fitted scene."""
+
+    rooms: tuple[Gaussians, ...]  # by room, NumPy
+    history: tuple[dict, ...]  # error against wall-clock; empty if the fit was taken from a folder without its history
+    key: str
+
+
+def reconstruct(job: Job, scene: Scene, painted: Painted, image: ImageBackend) -> Reconstruction:
+    """The gaussians of the scene, in `splats.ply`."""
+    with job.stage("reconstruct"):
+        config = job.config
+        key = job.key("reconstruct", painted.key, config.fit, config.raster)
+        if not job.folder.has("reconstruct", key):
+            _fit(job, scene, painted, image, key)
+        history = job.folder.path / HISTORY
+        return Reconstruction(
+            rooms=_split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes())),
+            history=tuple(json.loads(history.read_text())) if history.is_file() else (),
+            key=key,
+        )
+
+
+def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, gbuffer: GBuffer) -> TrainingView:
+    """A painted or true image with the scaffold behind it. Windows have no depth: what is behind the glass is far away."""
+    mesh = scene.mesh
+    kind = np.where(gbuffer.hit, mesh.face_kind[gbuffer.face], -1)
+    sees = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
+    return TrainingView(
+        camera=view.camera,
+        rgb=rgb,
+        depth=np.where(kind == SurfaceKind.PANE, np.float32(0), gbuffer.depth),
+        mask=mask,
+        room=view.room,
+        own=gbuffer.hit & (mesh.face_room[gbuffer.face] == view.room),
+        normal=gbuffer.normal,
+        sees=tuple(int(room) for room in sees),
+    )
+
+
+def _fit(job: Job, scene: Scene, painted: Painted, image: ImageBackend, key: str) -> None:
+    config, folder = job.config, job.folder
+    rooms = range(len(scene.plan.rooms))
+
+    def views(room: int) -> list[TrainingView]:
+        members = [view for view in scene.views if view.room == room]
+        stored = ((view, painted.view(view)) for view in members)
+        return [training_view(scene, view, p.rgb, p.mask, cast(scene.rays, view.camera)) for view, p in stored]
+
+    def heldout(room: int) -> list[TrainingView]:
+        truth = getattr(image, "truth", None)
+        members = [view for view in scene.heldout if view.room == room][:CURVE_VIEWS]
+        if truth is None or config.fit.curve_points == 0:
+            return []
+        everywhere = np.ones((config.cameras.height, config.cameras.width), bool)
+        return [training_view(scene, v, _bytes(truth(v)), everywhere, cast(scene.rays, v.camera)) for v in members]
+
+    def name(round_: int, room: int) -> str:
+        return f"fit/{round_}-{scene.rooms[room]}"
+
+    def file(round_: int, room: int) -> str:
+        return f"stages/fit/{round_}-{scene.rooms[room]}.npz"
+
+    def load(round_: int, room: int) -> Mapping[str, np.ndarray] | None:
+        if not folder.has(name(round_, room), key):
+            return None
+        return codecs.decode_arrays((folder.path / file(round_, room)).read_bytes())
+
+    def store(round_: int, room: int, arrays: Mapping[str, np.ndarray]) -> None:
+        folder.save(name(round_, room), key, {file(round_, room): codecs.encode_arrays(arrays)})
+
+    folder.drop_others("fit/", {name(r, room) for r in range(config.fit.rounds) for room in rooms})
+    seeds = np.random.SeedSequence([config.seed, 1])
+    start = [
+        initial_gaussians(views(room), settings=config.fit, rng=np.random.default_rng(child))
+        for room, child in zip(rooms, seeds.spawn(len(rooms)))
+    ]
+    with job.bar("reconstruct", len(rooms) * config.fit.steps) as bar:
+
+        def progress(done: int, total: int, info: dict) -> None:
+            if "loss" in info:
+                bar.set_postfix_str(f"{scene.rooms[info['room']]} loss {info['loss']:.4f}", refresh=False)
+            bar.update(done - bar.n)
+
+        result = fit_scene(
+            start,
+            views,
+            settings=config.fit,
+            raster=config.raster,
+            key=jax.random.key(config.seed),
+            heldout=heldout,
+            load=load,
+            store=store,
+            progress=progress,
+        )
+    for line in result.stopped:
+        print(f"reconstruct: {line}")
+    folder.write(HISTORY, json_text([_row(dataclasses.asdict(point)) for point in result.history]))
+    folder.save(
+        "reconstruct",
+        key,
+        {
+            BY_ROOM: codecs.encode_arrays(_join(result.gaussians)),
+            SPLATS: lambda path: save_ply(path, merge_gaussians(result.gaussians)),
+        },
+    )
+    folder.drop_others("fit/", set())
+
+
+def merge_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
+    """All rooms as one set, in order."""
+    return jax.tree.map(lambda *leaves: np.concatenate(leaves), *rooms)
+
+
+def _join(rooms: Sequence[Gaussians]) -> dict[str, np.ndarray]:
+    return {f"{k:05d}.{leaf}": getattr(room, leaf) for k, room in enumerate(rooms) for leaf in _LEAVES}
+
+
+def _split(arrays: Mapping[str, np.ndarray]) -> tuple[Gaussians, ...]:
+    rooms = sorted({name.split(".")[0] for name in arrays})
+    return tuple(Gaussians(**{leaf: arrays[f"{room}.{leaf}"] for leaf in _LEAVES}) for room in rooms)
+
+
+def _row(point: dict) -> dict:
+    """A point of the curve with NaN (no held-out views, no depth) as None, which JSON can say."""
+    return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in point.items()}
+
+
+def _bytes(rgb: np.ndarray) -> np.ndarray:
+    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
