@@ -33,7 +33,9 @@ class ProceduralObjects:
         if not 0.0 <= density <= 1.0:
             raise ValueError(f"furnish.density is {density}; it is the share of the optional pieces, between 0 and 1")
         kind = room_type(context.plan.rooms[room].name)
-        placed = furnish_site(site_of(context, room), kind, style_of(context.theme), seed=context.seed, room=room, density=density)
+        placed = furnish_site(
+            site_of(context, room), kind, style_of(context.theme), seed=context.seed, room=room, density=density
+        )
         return [scene_object(p, room) for p in placed]
 
 

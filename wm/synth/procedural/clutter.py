@@ -4,12 +4,9 @@ import math
 
 import numpy as np
 
-from wm.synth.procedural.finish import Style
+from wm.synth.procedural.finish import PERIOD, Style
 from wm.synth.procedural.furniture import make_piece
 from wm.synth.procedural.layout import LIFT, Layout, Placed
-
-PERIOD = frozenset({"gothic", "victorian", "baroque", "roman", "rustic", "japanese", "moroccan", "surreal"})
-"""Families without screens and swivel chairs."""
 
 ON: dict[str, tuple[str, ...]] = {
     "nightstand": ("table lamp", "pile of books"),
@@ -41,7 +38,11 @@ def things_for(kind: str, style: Style, rng: np.random.Generator) -> list[str]:
         middle = ["candlestick", "flowers", "candlestick"] if style.form.ornament > 0.4 else ["flowers", "bowl"]
         return middle
     choices = list(ON.get(kind, ()))
-    order = rng.permutation(len(choices)) if kind not in ("nightstand", "side table", "fireplace", "altar table") else range(len(choices))
+    order = (
+        rng.permutation(len(choices))
+        if kind not in ("nightstand", "side table", "fireplace", "altar table")
+        else range(len(choices))
+    )
     return [choices[k] for k in order][: HOW_MANY.get(kind, 2 + int(style.form.ornament > 0.6))]
 
 

@@ -133,6 +133,9 @@ class Style:
         raise KeyError(f"unknown furniture slot {name!r}; slots: {', '.join(SLOTS)}")
 
 
+PERIOD = frozenset({"gothic", "victorian", "baroque", "roman", "rustic", "japanese", "moroccan", "surreal"})
+"""Families without screens and swivel chairs, and with cast-iron stoves."""
+
 SLOTS: tuple[str, ...] = (
     "wood", "dark_wood", "light_wood", "panel_wood", "painted_wood", "lacquer",
     "fabric", "fabric_accent", "velvet", "leather", "linen", "pillow", "blanket", "curtain", "rug", "rug_border", "woven",

@@ -29,6 +29,12 @@ JOINED = 0.97
 """Share of the open floor that must hang together."""
 
 
+def parts_of(free: np.ndarray) -> tuple[np.ndarray, int]:
+    """(label of each cell's 4-connected part, 0 where not free; how many parts)."""
+    labels = np.zeros(free.shape, np.int32)
+    return labels, int(ndimage.label(free, output=labels))  # pyright: ignore[reportArgumentType]
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Placed:
     """A piece with its place."""
@@ -64,7 +70,17 @@ class Layout:
         self.reach = min(REACHABLE, self.shares(self.standing).max(initial=0.0) - 1e-9)
         self.joined = min(JOINED, self.shares(self.inside).max(initial=0.0) - 1e-9)
 
-    def try_at(self, piece: Piece, x: float, y: float, yaw: float, *, z: float = LIFT, front: float = 0.0, mates: frozenset[str] = frozenset()) -> Placed | None:  # fmt: skip
+    def try_at(
+        self,
+        piece: Piece,
+        x: float,
+        y: float,
+        yaw: float,
+        *,
+        z: float = LIFT,
+        front: float = 0.0,
+        mates: frozenset[str] = frozenset(),
+    ) -> Placed | None:
         """The piece placed at (x, y), or None where it may not stand.
 
         Args:
@@ -99,6 +115,22 @@ class Layout:
         self.placed.append(placed)
         return placed
 
+    def mark(self) -> tuple[int, int, np.ndarray, np.ndarray]:
+        """The state now, for `back_to`."""
+        return len(self.placed), len(self.reserved), self.standing, self.inside
+
+    def back_to(self, mark: tuple[int, int, np.ndarray, np.ndarray]) -> None:
+        """Takes away everything placed since the mark."""
+        placed, reserved, self.standing, self.inside = mark
+        del self.placed[placed:], self.reserved[reserved:]
+
+    def emptiest(self) -> tuple[float, float, float]:
+        """(x, y, metres to the nearest thing) of the open floor's middle."""
+        far = np.asarray(ndimage.distance_transform_edt(np.pad(self.inside, 1)))[1:-1, 1:-1]
+        k = int(np.argmax(far))
+        x, y = self.grid.reshape(-1, 2)[k].tolist()
+        return x, y, float(far.ravel()[k]) * CELL
+
     def clashes(self, footprint: shapely.Polygon, z: float, top: float, who: frozenset[str] = frozenset()) -> bool:
         """Whether something already stands within the clearance of a footprint in its height interval."""
         return any(
@@ -127,7 +159,7 @@ class Layout:
         """Whether every door reaches every other and nearly all of the floor is one."""
         if not standing.any() or self.shares(inside).max() < self.joined:
             return False
-        labels, _ = ndimage.label(standing)
+        labels, _ = parts_of(standing)
         sizes = np.bincount(labels.ravel())[1:]
         main = int(np.argmax(sizes)) + 1
         if sizes[main - 1] < self.reach * sizes.sum():
@@ -141,16 +173,29 @@ class Layout:
     @staticmethod
     def shares(free: np.ndarray) -> np.ndarray:
         """Share of the free cells in each of their connected parts."""
-        labels, count = ndimage.label(free)
+        labels, count = parts_of(free)
         return np.bincount(labels.ravel(), minlength=count + 1)[1:] / max(int(free.sum()), 1)
 
-    def against_wall(self, piece: Piece, rng: np.random.Generator, *, front: float = 0.0, where: str = "any", gap: float | None = None, z: float = LIFT,
-                     mates: frozenset[str] = frozenset(), walls: list[int] | None = None, span: tuple[float, float] | None = None) -> Placed | None:  # fmt: skip
+    def against_wall(
+        self,
+        piece: Piece,
+        rng: np.random.Generator,
+        *,
+        front: float = 0.0,
+        where: str = "any",
+        gap: float | None = None,
+        z: float = LIFT,
+        mates: frozenset[str] = frozenset(),
+        walls: list[int] | None = None,
+        span: tuple[float, float] | None = None,
+        near: tuple[float, float] | None = None,
+    ) -> Placed | None:
         """The piece with its back to some wall, at the best place that takes it; None where none does.
 
         Args:
           where: "centre" of a wall, "corner", or "any".
           gap: metres between its back and the wall; drawn from 2 to 5 cm where None.
+          near: a point; places are then tried by their distance from it.
           walls: only these; span: only this stretch (metres from the wall's start) of the one wall given.
         """
         w, d, _ = piece.size.tolist()
@@ -168,6 +213,8 @@ class Layout:
                 score = {"centre": off, "corner": min(share, 1 - share) * slack}.get(where, 0.0) + float(rng.uniform(0.0, 0.6))
                 if where == "centre":
                     score -= 0.15 * min(float(self.site.lengths[k]), 5.0)
+                if near is not None:
+                    score = float(np.linalg.norm(self.site.starts[k] + s * self.site.directions[k] - np.array(near)))
                 candidates.append((score, k, s))
         for _, k, s in sorted(candidates):
             if self.over_opening(k, s - w / 2, s + w / 2, z, z + float(piece.size[2])):
@@ -185,7 +232,16 @@ class Layout:
             for gap in self.site.gaps
         )
 
-    def on_floor(self, piece: Piece, rng: np.random.Generator, near: tuple[float, float], *, yaw: float, radius: float = 9.0, spread: float = 0.3) -> Placed | None:  # fmt: skip
+    def on_floor(
+        self,
+        piece: Piece,
+        rng: np.random.Generator,
+        near: tuple[float, float],
+        *,
+        yaw: float,
+        radius: float = 9.0,
+        spread: float = 0.3,
+    ) -> Placed | None:
         """The piece free on the floor, as near to a point as it may stand; None where it may nowhere."""
         steps = self.grid[::2, ::2][self.inside[::2, ::2]]
         points = np.concatenate([np.array([near]), steps])

@@ -39,8 +39,9 @@ def arch(kind: str, width: float, height: float, *, at: tuple[float, float] = (0
     else:
         u = np.linspace(1, -1, 2 * steps)
         curve = np.stack([half * u, rise * (0.45 + 0.55 * np.sin(2.4 * u + 0.5) * np.sqrt(np.maximum(1 - u**6, 0)))], -1)
-    top = curve + [x, z + height - curve[:, 1].max()]
-    return shapely.Polygon([(x - half, z), (x + half, z), *map(tuple, top.tolist())]).buffer(0)
+    top = curve + np.array([x, z + height - curve[:, 1].max()])
+    panel = shapely.Polygon([(x - half, z), (x + half, z), *((float(a), float(b)) for a, b in top)]).buffer(0)
+    return panel if isinstance(panel, shapely.Polygon) else rectangle(width, height, at=at)
 
 
 def frame(outline: shapely.Polygon, border: float) -> shapely.Polygon:

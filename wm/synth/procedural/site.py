@@ -69,8 +69,8 @@ def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str
         probes.append(starts[k] + 0.5 * (low + high) * directions[k] + 0.45 * normals[k])
     pole = shapely.maximum_inscribed_circle(polygon, tolerance=0.02).coords[0]
     return Site(
-        polygon=polygon, ceiling=ceiling, starts=starts, directions=directions, normals=normals, lengths=lengths, gaps=tuple(gaps),
-        keep=tuple(keep), probes=np.array(probes).reshape(-1, 2), centre=(float(pole[0]), float(pole[1])),
+        polygon=polygon, ceiling=ceiling, starts=starts, directions=directions, normals=normals, lengths=lengths,
+        gaps=tuple(gaps), keep=tuple(keep), probes=np.array(probes).reshape(-1, 2), centre=(float(pole[0]), float(pole[1])),
     )  # fmt: skip
 
 

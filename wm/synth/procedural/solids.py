@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 from jaxtyping import Float
+from shapely.geometry.base import BaseGeometry
 
 Point3 = tuple[float, float, float]
 
@@ -199,7 +200,9 @@ def catmull_rom(points: Float[np.ndarray, "k d"], between: int) -> Float[np.ndar
     t = np.linspace(0, 1, between + 2)[:-1, None]
     pieces = []
     for p0, p1, p2, p3 in zip(padded[:-3], padded[1:-2], padded[2:-1], padded[3:]):
-        pieces.append(0.5 * (2 * p1 + (p2 - p0) * t + (2 * p0 - 5 * p1 + 4 * p2 - p3) * t**2 + (3 * p1 - p0 - 3 * p2 + p3) * t**3))
+        pieces.append(
+            0.5 * (2 * p1 + (p2 - p0) * t + (2 * p0 - 5 * p1 + 4 * p2 - p3) * t**2 + (3 * p1 - p0 - 3 * p2 + p3) * t**3)
+        )
     return np.concatenate([*pieces, points[-1:]])
 
 
@@ -237,13 +240,18 @@ def tube(
     return _stack_of_rings(np.concatenate([points[:1], *rings, points[-1:]]), len(points), segments, poles=True)
 
 
-def extrude(outline: shapely.Polygon | Sequence[tuple[float, float]], lo: float, hi: float, axis: str = "y") -> Solid:
+def extrude(outline: BaseGeometry | Sequence[tuple[float, float]], lo: float, hi: float, axis: str = "y") -> Solid:
     """A prism: an outline (with holes, if a polygon has them) carried from `lo` to `hi` along an axis.
 
     The outline lies in (x, z) for axis "y", in (y, z) for "x" and in (x, y) for "z".
+
+    Raises:
+      ValueError: the outline is not one polygon.
     """
-    polygon = outline if isinstance(outline, shapely.Polygon) else shapely.Polygon(outline)
-    polygon = shapely.orient_polygons(polygon)
+    shape = outline if isinstance(outline, BaseGeometry) else shapely.Polygon(outline)
+    if not isinstance(shape, shapely.Polygon) or shape.is_empty:
+        raise ValueError(f"extrude takes one polygon, not {shape.geom_type} of area {shape.area:.4f}")
+    polygon = shapely.orient_polygons(shape)
     loops = [np.asarray(ring.coords)[:-1] for ring in (polygon.exterior, *polygon.interiors)]
     flat = np.concatenate(loops)
     index = {tuple(p): k for k, p in enumerate(flat.tolist())}
@@ -252,7 +260,8 @@ def extrude(outline: shapely.Polygon | Sequence[tuple[float, float]], lo: float,
         for triangle in shapely.get_parts(shapely.orient_polygons(shapely.constrained_delaunay_triangles(polygon)))
     ]
     n = len(flat)
-    faces: list[Sequence[int]] = [(c, b, a) for a, b, c in caps] + [(a + n, b + n, c + n) for a, b, c in caps]
+    faces: list[Sequence[int]] = [(c, b, a) for a, b, c in caps]
+    faces += [(a + n, b + n, c + n) for a, b, c in caps]
     start = 0
     for loop in loops:
         k = start + np.arange(len(loop))

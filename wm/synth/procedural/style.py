@@ -14,8 +14,9 @@ import itertools
 import math
 import re
 
-from wm.synth.procedural.families import FAMILIES, Sheet, build, mix, rgb
+from wm.synth.procedural.families import FAMILIES
 from wm.synth.procedural.finish import MATERIALS, SLOTS, Finish, Form, Light, Rgb, Style, Surfaces
+from wm.synth.procedural.sheet import Sheet, build, mix, rgb
 
 __all__ = ["MATERIALS", "SLOTS", "Finish", "Form", "Light", "Rgb", "Style", "Surfaces", "style_of"]
 

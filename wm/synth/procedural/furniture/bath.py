@@ -9,6 +9,9 @@ from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of
 from wm.synth.procedural.outlines import rounded
 from wm.synth.procedural.solids import Solid, ball, box, closed, extrude, lathe, rod, rounded_box, shift, stretch, tube, turn
 
+WHITE = (0.93, 0.92, 0.9)
+"""Sanitary ware is white in every style."""
+
 
 def vessel_of(rings: list[tuple[shapely.Polygon, float]]) -> Solid:
     """A loft through outlines (each resampled to the same count of points) at their heights, closed by flat caps."""
@@ -38,10 +41,20 @@ def vessel_of(rings: list[tuple[shapely.Polygon, float]]) -> Solid:
 
 def tap(x: float, y: float, z: float, reach: float, height: float, metal: str) -> list[Part]:
     """A swan-neck tap with two handles, reaching towards -y."""
-    neck = [(x, y, z), (x, y, z + 0.8 * height), (x, y - 0.4 * reach, z + height), (x, y - reach, z + 0.85 * height), (x, y - reach, z + 0.7 * height)]
+    neck = [
+        (x, y, z),
+        (x, y, z + 0.8 * height),
+        (x, y - 0.4 * reach, z + height),
+        (x, y - reach, z + 0.85 * height),
+        (x, y - reach, z + 0.7 * height),
+    ]
     parts = of(metal, tube(neck, 0.011, 8, smooth=3))
     for s in (-1.0, 1.0):
-        parts += of(metal, rod((x + s * 0.08, y, z), (x + s * 0.08, y, z + 0.05), 0.009), rod((x + s * 0.08 - 0.025, y, z + 0.05), (x + s * 0.08 + 0.025, y, z + 0.05), 0.007))
+        parts += of(
+            metal,
+            rod((x + s * 0.08, y, z), (x + s * 0.08, y, z + 0.05), 0.009),
+            rod((x + s * 0.08 - 0.025, y, z + 0.05), (x + s * 0.08 + 0.025, y, z + 0.05), 0.007),
+        )
     return parts
 
 
@@ -61,15 +74,37 @@ def bathtub(style: Style, rng: np.random.Generator, size: Size) -> Model:
         hole = rounded(w - 0.16, d - 0.16, 0.12, at=(0.0, -d / 2 + 0.08))
         frame = shapely.box(-w / 2, -d / 2, w / 2, d / 2).difference(hole)
         parts = of(slot, extrude(frame, 0.0, h, "z"), extrude(hole.buffer(0.01), 0.01, 0.15, "z"))
-        return Model(parts + of("water", extrude(hole.buffer(0.004), 0.14, h - 0.1, "z")) + tap(-w / 2 + 0.04, 0.0, h - 0.01, 0.0001, 0.12, metal)[1:])
-    shell = [(ring(0.1), low), (ring(0.055), low + 0.1), (ring(0.03), h - 0.1), (ring(0.012), h - 0.03), (ring(0.0), h - 0.018), (ring(0.0), h), (ring(0.045), h),
-             (ring(0.055), h - 0.03), (ring(0.075), h - 0.16)]  # fmt: skip
-    parts = of("ceramic", vessel_of(shell)) + of("water", extrude(ring(0.06), h - 0.2, h - 0.12, "z"))
+        return Model(
+            parts
+            + of("water", extrude(hole.buffer(0.004), 0.14, h - 0.1, "z"))
+            + tap(-w / 2 + 0.04, 0.0, h - 0.01, 0.0001, 0.12, metal)[1:]
+        )
+    shell = [
+        (ring(0.1), low),
+        (ring(0.055), low + 0.1),
+        (ring(0.03), h - 0.1),
+        (ring(0.012), h - 0.03),
+        (ring(0.0), h - 0.018),
+        (ring(0.0), h),
+        (ring(0.045), h),
+        (ring(0.055), h - 0.03),
+        (ring(0.075), h - 0.16),
+    ]
+    parts = of("ceramic", vessel_of(shell), color=WHITE) + of("water", extrude(ring(0.06), h - 0.2, h - 0.12, "z"))
     if feet:
         for sx in (-1.0, 1.0):
             for sy in (-1.0, 1.0):
                 x, y = sx * (w / 2 - 0.36), sy * (d / 2 - 0.14)
-                parts += of(metal, tube([(x, y + sy * 0.04, 0.015), (x, y + sy * 0.045, 0.06), (x, y - sy * 0.02, 0.17)], [0.022, 0.018, 0.03], 10, smooth=2), ball((x, y + sy * 0.04, 0.024), 0.024, 10))
+                parts += of(
+                    metal,
+                    tube(
+                        [(x, y + sy * 0.04, 0.015), (x, y + sy * 0.045, 0.06), (x, y - sy * 0.02, 0.17)],
+                        [0.022, 0.018, 0.03],
+                        10,
+                        smooth=2,
+                    ),
+                    ball((x, y + sy * 0.04, 0.024), 0.024, 10),
+                )
     spout = [Part(p.slot, turn(p.solid, "z", 90), p.color) for p in tap(0.0, 0.0, 0.0, 0.14, 0.2, metal)]
     return Model(parts + [Part(p.slot, shift(p.solid, (-w / 2 + 0.03, 0.0, h - 0.008)), p.color) for p in spout])
 
@@ -82,19 +117,38 @@ def washbasin(style: Style, rng: np.random.Generator, size: Size) -> Model:
     if w > 0.66:
         slot = "painted_wood" if style.form.panel == "slats" else "wood"
         parts += of(slot, box((-w / 2 + 0.02, -d / 2 + 0.04, 0.12), (w / 2 - 0.02, d / 2, h - 0.03)))
-        parts += of(slot, *(box((s * (w / 2 - 0.06) - 0.025, y - 0.025, 0.0), (s * (w / 2 - 0.06) + 0.025, y + 0.025, 0.13)) for s in (-1.0, 1.0) for y in (-d / 2 + 0.09, d / 2 - 0.05)))
+        parts += of(
+            slot,
+            *(
+                box((s * (w / 2 - 0.06) - 0.025, y - 0.025, 0.0), (s * (w / 2 - 0.06) + 0.025, y + 0.025, 0.13))
+                for s in (-1.0, 1.0)
+                for y in (-d / 2 + 0.09, d / 2 - 0.05)
+            ),
+        )
         for x0, x1, side in ((-w / 2 + 0.03, -0.004, "right"), (0.004, w / 2 - 0.03, "left")):
             parts += front(style, x0, x1, 0.14, h - 0.05, -d / 2 + 0.04, slot=slot, handle=side)
         parts += of("marble", rounded_box((-w / 2, -d / 2, h - 0.035), (w / 2, d / 2, h), 0.008, 1))
         bowl = lathe([(0.05, 0.0), (0.15, 0.05), (0.19, 0.12), (0.176, 0.12), (0.13, 0.05), (0.04, 0.025)], 32, smooth=1)
-        parts += of("ceramic", shift(stretch(bowl, (1.1, 0.85, 1.0)), (0, -0.02, h - 0.002)))
+        parts += of("ceramic", shift(stretch(bowl, (1.1, 0.85, 1.0)), (0, -0.02, h - 0.002)), color=WHITE)
         parts += tap(0.0, d / 2 - 0.06, h - 0.005, 0.12, 0.24, metal)
         return Model(parts)
-    parts += of("ceramic", lathe([(0.12, 0.0), (0.11, 0.03), (0.07, 0.12), (0.065, 0.55 * h), (0.09, h - 0.15)], 24, at=(0, 0.04, 0.0), smooth=2))
+    parts += of(
+        "ceramic",
+        lathe([(0.12, 0.0), (0.11, 0.03), (0.07, 0.12), (0.065, 0.55 * h), (0.09, h - 0.15)], 24, at=(0, 0.04, 0.0), smooth=2),
+        color=WHITE,
+    )
     oval = rounded(w, d, 0.24, at=(0.0, -d / 2))
-    rings = [(oval.buffer(-0.15), h - 0.17), (oval.buffer(-0.06), h - 0.1), (oval.buffer(-0.004), h - 0.035), (oval, h - 0.006), (oval.buffer(-0.012), h), (oval.buffer(-0.035), h),
-             (oval.buffer(-0.06), h - 0.03), (oval.buffer(-0.12), h - 0.11)]  # fmt: skip
-    parts += of("ceramic", vessel_of(rings))
+    rings = [
+        (oval.buffer(-0.15), h - 0.17),
+        (oval.buffer(-0.06), h - 0.1),
+        (oval.buffer(-0.004), h - 0.035),
+        (oval, h - 0.006),
+        (oval.buffer(-0.012), h),
+        (oval.buffer(-0.035), h),
+        (oval.buffer(-0.06), h - 0.03),
+        (oval.buffer(-0.12), h - 0.11),
+    ]
+    parts += of("ceramic", vessel_of(rings), color=WHITE)
     return Model(parts + tap(0.0, d / 2 - 0.05, h - 0.012, 0.1, 0.14, metal))
 
 
@@ -105,29 +159,68 @@ def toilet(style: Style, rng: np.random.Generator, size: Size) -> Model:
     y = -d / 2
     outline = rounded(w, deep, 0.49 * w, at=(0.0, y))
     slim = rounded(0.5 * w, 0.7 * deep, 0.12, at=(0.0, y + 0.26 * deep))
-    rings = [(slim.buffer(0.02), 0.0), (slim, 0.04), (slim.buffer(-0.005), 0.16), (outline.buffer(-0.06), 0.3), (outline.buffer(-0.012), seat - 0.04), (outline.buffer(-0.012), seat - 0.025)]
-    parts = of("ceramic", vessel_of(rings))
-    wood = "wood" if style.form.ornament > 0.3 else "ceramic"
-    parts += of(wood, extrude(outline.difference(outline.buffer(-0.085)), seat - 0.023, seat, "z"))
+    rings = [
+        (slim.buffer(0.02), 0.0),
+        (slim, 0.04),
+        (slim.buffer(-0.005), 0.16),
+        (outline.buffer(-0.06), 0.3),
+        (outline.buffer(-0.012), seat - 0.04),
+        (outline.buffer(-0.012), seat - 0.025),
+    ]
+    parts = of("ceramic", vessel_of(rings), color=WHITE)
+    seat_slot, tint = ("wood", None) if style.form.ornament > 0.3 else ("ceramic", WHITE)
+    parts += of(seat_slot, extrude(outline.difference(outline.buffer(-0.085)), seat - 0.023, seat, "z"), color=tint)
     lid = extrude(outline.buffer(-0.002), 0.0, 0.018, "z")
-    parts += of(wood, turn(shift(lid, (0, 0, seat + 0.003)), "x", 82, (0, y + deep - 0.01, seat + 0.01)))
-    parts += of("ceramic", rounded_box((-w / 2 - 0.01, d / 2 - 0.17, seat - 0.06), (w / 2 + 0.01, d / 2, h - 0.035), 0.03), rounded_box((-w / 2 - 0.02, d / 2 - 0.18, h - 0.045), (w / 2 + 0.02, d / 2, h), 0.014, 1))
-    return Model(parts + of("brass" if style.form.ornament > 0.3 else "chrome", lathe([(0.025, h - 0.002), (0.022, h + 0.008)], 16, at=(0, d / 2 - 0.09, 0.0))))
+    parts += of(seat_slot, turn(shift(lid, (0, 0, seat + 0.003)), "x", -80, (0, y + deep - 0.01, seat + 0.012)), color=tint)
+    parts += of(
+        "ceramic", rounded_box((-0.26 * w, y + 0.6 * deep, 0.0), (0.26 * w, d / 2 - 0.02, seat - 0.03), 0.03), color=WHITE
+    )
+    parts += of(
+        "ceramic",
+        rounded_box((-w / 2 - 0.01, d / 2 - 0.17, seat - 0.06), (w / 2 + 0.01, d / 2, h - 0.035), 0.03),
+        rounded_box((-w / 2 - 0.02, d / 2 - 0.18, h - 0.045), (w / 2 + 0.02, d / 2, h), 0.014, 1),
+        color=WHITE,
+    )
+    return Model(
+        parts
+        + of(
+            "brass" if style.form.ornament > 0.3 else "chrome",
+            lathe([(0.025, h - 0.002), (0.022, h + 0.008)], 16, at=(0, d / 2 - 0.09, 0.0)),
+        )
+    )
 
 
 def shower(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A glazed corner: tray, two glass walls in a metal frame, riser and rose."""
     w, d, h = size
     metal = "brass" if style.form.ornament > 0.3 else "chrome"
-    parts = of("ceramic", rounded_box((-w / 2, -d / 2, 0.0), (w / 2, d / 2, 0.06), 0.012, 1))
+    parts = of("ceramic", rounded_box((-w / 2, -d / 2, 0.0), (w / 2, d / 2, 0.06), 0.012, 1), color=WHITE)
     for s in (-1.0, 1.0):
-        parts += of("glass", box((s * (w / 2 - 0.012) - 0.004, -d / 2 + 0.02, 0.055), (s * (w / 2 - 0.012) + 0.004, d / 2 - 0.004, h - 0.02), 0.0))
-        parts += of(metal, box((s * (w / 2 - 0.012) - 0.012, -d / 2, 0.05), (s * (w / 2 - 0.012) + 0.012, -d / 2 + 0.024, h), 0.003))
-        parts += of(metal, box((s * (w / 2 - 0.012) - 0.01, -d / 2 + 0.02, h - 0.022), (s * (w / 2 - 0.012) + 0.01, d / 2, h - 0.002), 0.003))
+        parts += of(
+            "glass",
+            box((s * (w / 2 - 0.012) - 0.004, -d / 2 + 0.02, 0.055), (s * (w / 2 - 0.012) + 0.004, d / 2 - 0.004, h - 0.02), 0.0),
+        )
+        parts += of(
+            metal, box((s * (w / 2 - 0.012) - 0.012, -d / 2, 0.05), (s * (w / 2 - 0.012) + 0.012, -d / 2 + 0.024, h), 0.003)
+        )
+        parts += of(
+            metal,
+            box((s * (w / 2 - 0.012) - 0.01, -d / 2 + 0.02, h - 0.022), (s * (w / 2 - 0.012) + 0.01, d / 2, h - 0.002), 0.003),
+        )
     parts += of(metal, box((-w / 2 + 0.02, -d / 2 + 0.002, h - 0.022), (w / 2 - 0.02, -d / 2 + 0.022, h - 0.0015), 0.003))
     parts += of("glass", box((-w / 2 + 0.02, -d / 2 + 0.008, 0.055), (-0.02, -d / 2 + 0.016, h - 0.02), 0.0))
-    riser = [(0, d / 2 - 0.03, 1.0), (0, d / 2 - 0.03, h - 0.12), (0, d / 2 - 0.1, h - 0.05), (0, d / 2 - 0.28, h - 0.07), (0, d / 2 - 0.32, h - 0.11)]
-    parts += of(metal, tube(riser, 0.01, 8, smooth=2), lathe([(0.1, h - 0.13), (0.1, h - 0.118), (0.02, h - 0.1)], 24, at=(0, d / 2 - 0.32, 0.0)))
+    riser = [
+        (0, d / 2 - 0.03, 1.0),
+        (0, d / 2 - 0.03, h - 0.12),
+        (0, d / 2 - 0.1, h - 0.05),
+        (0, d / 2 - 0.28, h - 0.07),
+        (0, d / 2 - 0.32, h - 0.11),
+    ]
+    parts += of(
+        metal,
+        tube(riser, 0.01, 8, smooth=2),
+        lathe([(0.1, h - 0.13), (0.1, h - 0.118), (0.02, h - 0.1)], 24, at=(0, d / 2 - 0.32, 0.0)),
+    )
     return Model(parts + of(metal, rounded_box((-0.09, d / 2 - 0.06, 1.0), (0.09, d / 2 - 0.012, 1.05), 0.01, 1)))
 
 
@@ -138,10 +231,16 @@ def towel_rail(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts: list[Part] = []
     for z in (h - 0.02, 0.5 * h):
         parts += of(metal, shift(turn(rod((0, 0, -w / 2), (0, 0, w / 2), 0.009), "y", 90), (0, -d / 2 + 0.03, z)))
-        parts += of(metal, *(rod((s * (w / 2 - 0.03), -d / 2 + 0.03, z), (s * (w / 2 - 0.03), d / 2, z), 0.008, 6) for s in (-1.0, 1.0)))
+        parts += of(
+            metal, *(rod((s * (w / 2 - 0.03), -d / 2 + 0.03, z), (s * (w / 2 - 0.03), d / 2, z), 0.008, 6) for s in (-1.0, 1.0))
+        )
     t = np.linspace(0, np.pi, 7)
     y, z, r = -d / 2 + 0.03, h - 0.02, 0.013
-    outer = [(y - r - 0.006, 0.0), *((y - (r + 0.006) * np.cos(a), z + (r + 0.006) * np.sin(a)) for a in t), (y + r + 0.006, 0.16)]
+    outer = [
+        (y - r - 0.006, 0.0),
+        *((y - (r + 0.006) * np.cos(a), z + (r + 0.006) * np.sin(a)) for a in t),
+        (y + r + 0.006, 0.16),
+    ]
     inner = [(y + r, 0.16), *((y + r * np.cos(a), z + r * np.sin(a)) for a in t), (y - r, 0.0)]
     return Model(parts + of("linen", extrude([(float(a), float(b)) for a, b in [*outer, *inner]], -0.3 * w, 0.3 * w, "x")))
 

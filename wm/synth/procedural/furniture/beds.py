@@ -29,18 +29,34 @@ def headboard(style: Style, w: float, y: float, low: float, high: float, *, wood
         if kind == "klismos":
             outline = rounded(w, tall * 0.8, 0.12, at=(0.0, low))
         parts = of(wood, extrude(frame(outline, 0.06), y - 0.06, y, "y"))
-        return parts + of("fabric", extrude(outline.buffer(-0.05), y - 0.045, y - 0.012, "y"), extrude(outline.buffer(-0.11), y - 0.058, y - 0.02, "y"))
+        return parts + of(
+            "fabric",
+            extrude(outline.buffer(-0.05), y - 0.045, y - 0.012, "y"),
+            extrude(outline.buffer(-0.11), y - 0.058, y - 0.02, "y"),
+        )
     if kind == "slats" or kind == "spindle":
-        bars = [box((-w / 2 + 0.03, y - 0.035, z - 0.05), (w / 2 - 0.03, y - 0.012, z + 0.03), 0.005) for z in np.linspace(low + 0.18, high - 0.12, 3)]
+        bars = [
+            box((-w / 2 + 0.03, y - 0.035, z - 0.05), (w / 2 - 0.03, y - 0.012, z + 0.03), 0.005)
+            for z in np.linspace(low + 0.18, high - 0.12, 3)
+        ]
         if kind == "spindle":
-            bars = [rod((x, y - 0.024, low + 0.1), (x, y - 0.024, high - 0.05), 0.011) for x in np.linspace(-w / 2 + 0.1, w / 2 - 0.1, 11)]
-        posts = [rounded_box((s * (w / 2 - 0.025) - 0.025, y - 0.05, 0.0), (s * (w / 2 - 0.025) + 0.025, y, high), 0.012, 1) for s in (-1.0, 1.0)]
+            bars = [
+                rod((x, y - 0.024, low + 0.1), (x, y - 0.024, high - 0.05), 0.011)
+                for x in np.linspace(-w / 2 + 0.1, w / 2 - 0.1, 11)
+            ]
+        posts = [
+            rounded_box((s * (w / 2 - 0.025) - 0.025, y - 0.05, 0.0), (s * (w / 2 - 0.025) + 0.025, y, high), 0.012, 1)
+            for s in (-1.0, 1.0)
+        ]
         rail = rounded_box((-w / 2 + 0.01, y - 0.045, high - 0.08), (w / 2 - 0.01, y - 0.005, high - 0.01), 0.015, 1)
         return of(wood, *bars, *posts, rail)
     if style.form.softness > 0.5:
         count = 4
         pitch = w / count
-        pads = [rounded_box((-w / 2 + k * pitch + 0.002, y - 0.09, low), (-w / 2 + (k + 1) * pitch - 0.002, y, high), 0.03) for k in range(count)]
+        pads = [
+            rounded_box((-w / 2 + k * pitch + 0.002, y - 0.09, low), (-w / 2 + (k + 1) * pitch - 0.002, y, high), 0.03)
+            for k in range(count)
+        ]
         return of("fabric", *pads)
     return of(wood, rounded_box((-w / 2, y - 0.05, low), (w / 2, y, high), 0.012, 1))
 
@@ -56,17 +72,29 @@ def bed(style: Style, rng: np.random.Generator, size: Size) -> Model:
     foot_y = -d / 2
     parts = headboard(style, w, y_head, 0.06, h, wood=wood)
     parts += of(wood, rounded_box((-w / 2, foot_y, base - 0.1), (w / 2, y_head - 0.05, base + 0.06), 0.015, 1))
-    if form.legs != "slab":
+    if form.ornament > 0.5 and form.legs in ("turned", "cabriole", "column"):
+        parts += legs(style, w - 0.02, d - 0.04, base - 0.05, 0.09, slot=wood, kind="straight")  # its posts are turned
+    elif form.legs != "slab":
         parts += legs(style, w - 0.02, d - 0.04, base - 0.05, 0.075, slot=wood)
     else:
         parts += of(wood, box((-w / 2 + 0.1, foot_y + 0.1, 0.0), (w / 2 - 0.1, y_head - 0.1, base - 0.09)))
     inner = w / 2 - 0.03
     parts += of("linen", rounded_box((-inner, foot_y + 0.035, base + 0.03), (inner, y_head - 0.06, mattress), 0.06))
     cover_end = y_head - 0.06 - 0.3 * d
-    parts += of("blanket", rounded_box((-w / 2 - 0.012, foot_y - 0.006, base + 0.1), (w / 2 + 0.012, cover_end, mattress + 0.045), 0.07))
-    parts += of("linen", rounded_box((-w / 2 - 0.02, cover_end - 0.2, base + 0.16), (w / 2 + 0.02, cover_end + 0.05, mattress + 0.06), 0.06))
+    parts += of(
+        "blanket", rounded_box((-w / 2 - 0.012, foot_y - 0.006, base + 0.1), (w / 2 + 0.012, cover_end, mattress + 0.045), 0.07)
+    )
+    parts += of(
+        "linen",
+        rounded_box((-w / 2 - 0.02, cover_end - 0.2, base + 0.16), (w / 2 + 0.02, cover_end + 0.05, mattress + 0.06), 0.06),
+    )
     if rng.random() < 0.6:
-        parts += of("fabric_accent", rounded_box((-w / 2 - 0.026, foot_y + 0.12, base + 0.08), (w / 2 + 0.026, foot_y + 0.12 + 0.24 * d, mattress + 0.057), 0.06))
+        parts += of(
+            "fabric_accent",
+            rounded_box(
+                (-w / 2 - 0.026, foot_y + 0.12, base + 0.08), (w / 2 + 0.026, foot_y + 0.12 + 0.24 * d, mattress + 0.057), 0.06
+            ),
+        )
     count = 2 if w > 1.2 else 1
     for k in range(count):
         x = 0.0 if count == 1 else (k - 0.5) * (w / 2)
@@ -92,12 +120,14 @@ def footboard(style: Style, w: float, y: float, base: float, *, wood: str) -> li
         pitch = (w - 0.12) / count
         board = rectangle(w - 0.1, top - base + 0.04, at=(0.0, base - 0.06))
         for k in range(count):
-            board = board.difference(arch(kind, pitch - 0.05, top - base - 0.05, at=(-(w - 0.12) / 2 + (k + 0.5) * pitch, base - 0.02)))
+            board = board.difference(
+                arch(kind, pitch - 0.05, top - base - 0.05, at=(-(w - 0.12) / 2 + (k + 0.5) * pitch, base - 0.02))
+            )
         parts += of(wood, extrude(board, y - 0.058, y - 0.04, "y"))
     profile = COLUMN if style.form.legs == "column" else TURNED
     for s in (-1.0, 1.0):
         x = s * (w / 2 - 0.02)
-        parts += of(wood, lathe([(0.008 + 0.034 * r, z * (top + 0.08)) for r, z in profile], 16, at=(x, y - 0.03, 0.0), smooth=1))
+        parts += of(wood, lathe([(0.008 + 0.034 * r, z * (top + 0.08)) for r, z in profile], 16, at=(x, y - 0.03, 0.0)))
         parts += of(wood, finial(x, y - 0.03, top + 0.077, 0.09))
     return parts
 
@@ -113,7 +143,7 @@ def four_poster(style: Style, rng: np.random.Generator, size: Size) -> Model:
         for sy in (-1.0, 1.0):
             x, y = sx * (w / 2 - 0.05), sy * (d / 2 - 0.05)
             parts += of(wood, box((x - 0.045, y - 0.045, 0.0), (x + 0.045, y + 0.045, 0.5), 0.008))
-            parts += of(wood, lathe([(0.012 + 0.03 * r, 0.49 + z * (h - 0.6)) for r, z in profile], 16, at=(x, y, 0.0), smooth=1))
+            parts += of(wood, lathe([(0.012 + 0.03 * r, 0.49 + z * (h - 0.6)) for r, z in profile], 16, at=(x, y, 0.0)))
     parts += of(wood, rounded_box((-w / 2, -d / 2, h - 0.12), (w / 2, d / 2, h), 0.02, 1))
     valance = rounded_box((-w / 2 + 0.012, -d / 2 + 0.012, h - 0.3), (w / 2 - 0.012, d / 2 - 0.012, h - 0.1), 0.012, 1)
     parts += of("curtain", valance)

@@ -3,13 +3,36 @@
 import numpy as np
 
 from wm.synth.procedural.finish import Style
-from wm.synth.procedural.furniture import bath, beds, decor, kitchen, lighting, seating, storage, tables, textiles
+from wm.synth.procedural.furniture import (
+    bath,
+    beds,
+    greenery,
+    kitchen,
+    lighting,
+    sculpture,
+    seating,
+    storage,
+    tables,
+    tabletop,
+    textiles,
+    walls,
+)
 from wm.synth.procedural.furniture.piece import Kind, Piece, Size, assemble
 
 KINDS: dict[str, Kind] = {
-    **seating.KINDS, **tables.KINDS, **beds.KINDS, **storage.KINDS, **lighting.KINDS, **textiles.KINDS, **decor.KINDS,
-    **kitchen.KINDS, **bath.KINDS,
-}  # fmt: skip
+    **seating.KINDS,
+    **tables.KINDS,
+    **beds.KINDS,
+    **storage.KINDS,
+    **lighting.KINDS,
+    **textiles.KINDS,
+    **walls.KINDS,
+    **greenery.KINDS,
+    **sculpture.KINDS,
+    **tabletop.KINDS,
+    **kitchen.KINDS,
+    **bath.KINDS,
+}
 
 
 def make_piece(kind: str, style: Style, rng: np.random.Generator, *, size: Size | None = None) -> Piece:

@@ -3,21 +3,50 @@
 import numpy as np
 import shapely
 
-from wm.synth.procedural.finish import Style
+from wm.synth.procedural.finish import Rgb, Style
 from wm.synth.procedural.furniture.piece import Part, of
 from wm.synth.procedural.outlines import arch, rectangle
 from wm.synth.procedural.solids import Solid, ball, box, extrude, lathe, rod, tube
 
-TURNED = [(0.55, 0.0), (0.75, 0.03), (0.6, 0.07), (0.45, 0.1), (0.5, 0.16), (0.95, 0.34), (1.0, 0.42), (0.6, 0.55), (0.5, 0.62),
-          (0.85, 0.66), (0.85, 0.7), (0.55, 0.73), (0.6, 0.8), (1.0, 0.82), (1.0, 1.0)]  # fmt: skip
+TURNED = [
+    (0.55, 0.0),
+    (0.75, 0.03),
+    (0.6, 0.07),
+    (0.45, 0.1),
+    (0.5, 0.16),
+    (0.95, 0.34),
+    (1.0, 0.42),
+    (0.6, 0.55),
+    (0.5, 0.62),
+    (0.85, 0.66),
+    (0.85, 0.7),
+    (0.55, 0.73),
+    (0.6, 0.8),
+    (1.0, 0.82),
+    (1.0, 1.0),
+]
 """Profile of a turned leg: radius over its largest, height over its length."""
 
-COLUMN = [(1.0, 0.0), (1.0, 0.07), (0.85, 0.09), (0.9, 0.12), (0.72, 0.15), (0.66, 0.5), (0.6, 0.82), (0.72, 0.84), (0.72, 0.87),
-          (0.95, 0.93), (1.0, 0.94), (1.0, 1.0)]  # fmt: skip
+COLUMN = [
+    (1.0, 0.0),
+    (1.0, 0.07),
+    (0.85, 0.09),
+    (0.9, 0.12),
+    (0.72, 0.15),
+    (0.66, 0.5),
+    (0.6, 0.82),
+    (0.72, 0.84),
+    (0.72, 0.87),
+    (0.95, 0.93),
+    (1.0, 0.94),
+    (1.0, 1.0),
+]
 """Profile of a small column with base and capital."""
 
 
-def leg(kind: str, x: float, y: float, height: float, thickness: float, *, outward: tuple[float, float] = (0.0, 0.0)) -> list[Solid]:
+def leg(
+    kind: str, x: float, y: float, height: float, thickness: float, *, outward: tuple[float, float] = (0.0, 0.0)
+) -> list[Solid]:
     """One leg below (x, y, height); `outward` points away from the piece's centre, for splayed and curved legs."""
     ox, oy = outward
     r = thickness / 2
@@ -30,8 +59,13 @@ def leg(kind: str, x: float, y: float, height: float, thickness: float, *, outwa
         return [tube([(x + ox * splay, y + oy * splay, 0.0), (x, y, height)], [0.32 * thickness, 0.55 * thickness], 12)]
     if kind == "cabriole":
         knee, foot = 0.35 * thickness + 0.03 * height, 0.2 * thickness + 0.02 * height
-        path = [(x + ox * foot * 1.3, y + oy * foot * 1.3, 0.012), (x + ox * foot * 0.6, y + oy * foot * 0.6, 0.1 * height),
-                (x - ox * 0.01, y - oy * 0.01, 0.4 * height), (x + ox * knee, y + oy * knee, 0.78 * height), (x, y, height)]  # fmt: skip
+        path = [
+            (x + ox * foot * 1.3, y + oy * foot * 1.3, 0.012),
+            (x + ox * foot * 0.6, y + oy * foot * 0.6, 0.1 * height),
+            (x - ox * 0.01, y - oy * 0.01, 0.4 * height),
+            (x + ox * knee, y + oy * knee, 0.78 * height),
+            (x, y, height),
+        ]
         return [tube(path, [0.55 * r, 0.42 * r, 0.5 * r, 0.95 * r, 1.0 * r], 10, smooth=2), ball(path[0], 0.012 + 0.1 * r, 8)]
     if kind == "hairpin":
         spread = min(0.35 * height, 0.08)
@@ -43,7 +77,9 @@ def leg(kind: str, x: float, y: float, height: float, thickness: float, *, outwa
     return [box((x - wide, y - wide, 0.0), (x + wide, y + wide, height))]
 
 
-def legs(style: Style, width: float, depth: float, height: float, thickness: float, *, slot: str, kind: str | None = None) -> list[Part]:
+def legs(
+    style: Style, width: float, depth: float, height: float, thickness: float, *, slot: str, kind: str | None = None
+) -> list[Part]:
     """Four legs under the corners of a footprint that they do not leave."""
     name = kind or style.form.legs
     margin = thickness * (0.9 if name in ("tapered", "cabriole") else 0.62) + (0.012 if name == "cabriole" else 0.0)
@@ -52,6 +88,10 @@ def legs(style: Style, width: float, depth: float, height: float, thickness: flo
         for sy in (-1.0, 1.0):
             solids += leg(name, sx * (width / 2 - margin), sy * (depth / 2 - margin), height, thickness, outward=(sx, sy))
     return of("dark_metal" if name == "hairpin" else slot, *solids)
+
+
+def scaled(color: Rgb, factor: float) -> Rgb:
+    return color[0] * factor, color[1] * factor, color[2] * factor
 
 
 def frame_wood(style: Style) -> str:
@@ -72,38 +112,50 @@ def front(style: Style, x0: float, x1: float, z0: float, z1: float, y: float, *,
     kind = style.form.panel
     width, height = x1 - x0, z1 - z0
     middle = (x0 + x1) / 2
-    parts = of(slot, box((x0, y - 0.018, z0), (x1, y + 0.01, z1), 0.003))
+    shade = scaled(style.slot(slot).colors[0], 0.8)
+    recessed = kind in ("pointed", "arched", "raised") and min(width, height) > 0.12
+    parts = of(slot, box((x0, y - 0.018, z0), (x1, y + 0.01, z1), 0.003), color=shade if recessed else None)
     rail = min(0.07, 0.2 * min(width, height))
     face = y - 0.018
-    if kind in ("pointed", "arched", "raised") and min(width, height) > 0.12:
+    if recessed:
         opening = rectangle(width - 2 * rail, height - 2 * rail, at=(middle, z0 + rail))
         if height > 1.2 * width and kind != "raised":
-            opening = arch("pointed" if kind == "pointed" else "round", width - 2 * rail, height - 2 * rail, at=(middle, z0 + rail))
+            opening = arch(
+                "pointed" if kind == "pointed" else "round", width - 2 * rail, height - 2 * rail, at=(middle, z0 + rail)
+            )
         outer = rectangle(width - 0.004, height - 0.004, at=(middle, z0 + 0.002))
-        parts += of(slot, extrude(outer.difference(opening), face - 0.012, face + 0.004, "y"))
+        parts += of(slot, extrude(outer.difference(opening), face - 0.015, face + 0.004, "y"))
         if kind == "raised" or height <= 1.2 * width:
             inner = opening.buffer(-0.35 * rail, join_style="mitre")
             if not inner.is_empty:
                 parts += of(slot, extrude(inner, face - 0.008, face + 0.004, "y"))
-        face -= 0.012
+        face -= 0.015
     elif kind == "slats" and min(width, height) > 0.12:
         count = max(int((width - 0.02) / 0.06), 2)
         pitch = (width - 0.02) / count
         for k in range(count):
             left = x0 + 0.01 + k * pitch
-            parts += of(slot, box((left + 0.004, face - 0.008, z0 + 0.01), (left + pitch - 0.004, face + 0.004, z1 - 0.01), 0.003))
+            parts += of(
+                slot, box((left + 0.004, face - 0.008, z0 + 0.01), (left + pitch - 0.004, face + 0.004, z1 - 0.01), 0.003)
+            )
         face -= 0.008
     if handle == "none":
         return parts
     metal = "brass" if style.form.ornament > 0.25 or style.form.panel != "flat" else "dark_metal"
     if kind == "flat":
         if handle == "centre":
-            return parts + of(metal, box((middle - 0.06, face - 0.022, z1 - 0.045), (middle + 0.06, face + 0.004, z1 - 0.033), 0.003))
+            return parts + of(
+                metal, box((middle - 0.06, face - 0.022, z1 - 0.045), (middle + 0.06, face + 0.004, z1 - 0.033), 0.003)
+            )
         x = x1 - 0.045 if handle == "right" else x0 + 0.033
         centre = (z0 + z1) / 2
         return parts + of(metal, box((x, face - 0.022, centre - 0.07), (x + 0.012, face + 0.004, centre + 0.07), 0.003))
     x = {"right": x1 - 0.5 * rail, "left": x0 + 0.5 * rail}.get(handle, middle)
-    return parts + of(metal, ball((x, face - 0.012, (z0 + z1) / 2), 0.015, 8), rod((x, face - 0.01, (z0 + z1) / 2), (x, face + 0.005, (z0 + z1) / 2), 0.006, 6))  # fmt: skip
+    return parts + of(
+        metal,
+        ball((x, face - 0.012, (z0 + z1) / 2), 0.015, 8),
+        rod((x, face - 0.01, (z0 + z1) / 2), (x, face + 0.005, (z0 + z1) / 2), 0.006, 6),
+    )
 
 
 def tracery(width: float, height: float, border: float, *, at: tuple[float, float], lancets: int = 2) -> shapely.Polygon:
@@ -126,7 +178,7 @@ def tracery(width: float, height: float, border: float, *, at: tuple[float, floa
 def finial(x: float, y: float, z: float, size: float) -> Solid:
     """A small turned knob that ends a post."""
     profile = [(0.0, 0.0), (0.45, 0.0), (0.3, 0.2), (0.5, 0.45), (0.42, 0.65), (0.15, 0.8), (0.22, 0.88), (0.0, 1.0)]
-    return lathe([(size * r, size * h) for r, h in profile], 12, at=(x, y, z), smooth=1)
+    return lathe([(size * r, size * h) for r, h in profile], 10, at=(x, y, z), smooth=1)
 
 
 def candle(x: float, y: float, z: float, height: float, *, radius: float = 0.011) -> list[Part]:

@@ -1,33 +1,50 @@
 """Kitchen pieces: counter with sink, counter, stove, fridge, wall cupboard, hood."""
 
+import itertools
+
 import numpy as np
 
-from wm.synth.procedural.finish import Style
+from wm.synth.procedural.finish import PERIOD, Style
 from wm.synth.procedural.furniture.common import front
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, Top, of
 from wm.synth.procedural.outlines import rectangle, rounded
 from wm.synth.procedural.solids import box, extrude, lathe, rod, rounded_box, shift, tube, turn
 
-PERIOD = ("gothic", "victorian", "baroque", "roman", "rustic", "moroccan", "surreal")
 
-
-def base_units(style: Style, w: float, d: float, h: float, *, drawers: bool) -> list[Part]:
-    """Cupboards below a worktop that is left for the caller."""
+def base_units(style: Style, w: float, d: float, h: float, *, drawers: bool, basin: float = 0.0) -> list[Part]:
+    """Cupboards below a worktop that is left for the caller; open above to a depth of `basin`."""
     slot = "wood" if style.family in ("gothic", "rustic", "industrial", "japanese") else "painted_wood"
-    parts = of(slot, box((-w / 2, -d / 2 + 0.045, 0.09), (w / 2, d / 2, h - 0.037)))
+    face = -d / 2 + 0.045
+    parts = of(slot, box((-w / 2, face, 0.09), (w / 2, d / 2, h - 0.037 - basin)))
+    if basin:
+        low, high = h - 0.04 - basin, h - 0.037
+        parts += of(
+            slot,
+            box((-w / 2, face, low), (w / 2, face + 0.02, high), 0.0),
+            box((-w / 2, d / 2 - 0.02, low), (w / 2, d / 2, high), 0.0),
+        )
+        parts += of(
+            slot, *(box((s * w / 2, face + 0.019, low), (s * (w / 2 - 0.02), d / 2 - 0.019, high), 0.0) for s in (-1.0, 1.0))
+        )
     parts += of("dark_wood", box((-w / 2 + 0.01, -d / 2 + 0.1, 0.0), (w / 2 - 0.01, d / 2 - 0.02, 0.1)))
     count = max(round(w / 0.5), 1)
     edges = np.linspace(-w / 2 + 0.006, w / 2 - 0.006, count + 1)
-    for k, (x0, x1) in enumerate(zip(edges[:-1], edges[1:])):
+    for k, (x0, x1) in enumerate(itertools.pairwise(edges.tolist())):
         side = "right" if k % 2 == 0 else "left"
         if drawers:
             parts += front(style, x0 + 0.004, x1 - 0.004, h - 0.21, h - 0.05, -d / 2 + 0.045, slot=slot, handle="centre")
-        parts += front(style, x0 + 0.004, x1 - 0.004, 0.11, h - (0.22 if drawers else 0.05), -d / 2 + 0.045, slot=slot, handle=side)
+        parts += front(
+            style, x0 + 0.004, x1 - 0.004, 0.11, h - (0.22 if drawers else 0.05), -d / 2 + 0.045, slot=slot, handle=side
+        )
     return parts
 
 
 def worktop(style: Style) -> str:
-    return "wood" if style.family in ("scandinavian", "coastal", "japanese") else ("stone" if style.family in ("gothic", "rustic") else "marble")
+    return (
+        "wood"
+        if style.family in ("scandinavian", "coastal", "japanese")
+        else ("stone" if style.family in ("gothic", "rustic") else "marble")
+    )
 
 
 def counter(style: Style, rng: np.random.Generator, size: Size) -> Model:
@@ -40,19 +57,33 @@ def counter(style: Style, rng: np.random.Generator, size: Size) -> Model:
 def sink(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A counter with a basin let into its top, and a tap; h is the height of the worktop."""
     w, d, top = size
-    parts = base_units(style, w, d, top, drawers=False)
+    parts = base_units(style, w, d, top, drawers=False, basin=0.17)
     hole = rounded(0.5, 0.38, 0.05, at=(0.0, -0.21))
     sheet = rectangle(w, d, at=(0.0, -d / 2)).difference(hole)
     parts += of(worktop(style), extrude(sheet, top - 0.04, top, "z"))
     basin = "ceramic" if style.form.ornament > 0.3 else "chrome"
     rim = hole.buffer(0.012)
-    parts += of(basin, extrude(rim.difference(hole.buffer(-0.012)), top - 0.17, top + 0.006, "z"), extrude(hole.buffer(-0.004), top - 0.2, top - 0.165, "z"))
+    parts += of(
+        basin,
+        extrude(rim.difference(hole.buffer(-0.012)), top - 0.17, top + 0.006, "z"),
+        extrude(hole.buffer(-0.004), top - 0.2, top - 0.165, "z"),
+    )
     metal = "brass" if style.form.ornament > 0.3 else "chrome"
     y = d / 2 - 0.07
-    spout = [(0, y, top - 0.01), (0, y, top + 0.2), (0, y - 0.05, top + 0.28), (0, y - 0.13, top + 0.27), (0, y - 0.16, top + 0.2)]
+    spout = [
+        (0, y, top - 0.01),
+        (0, y, top + 0.2),
+        (0, y - 0.05, top + 0.28),
+        (0, y - 0.13, top + 0.27),
+        (0, y - 0.16, top + 0.2),
+    ]
     parts += of(metal, tube(spout, 0.011, 8, smooth=3), lathe([(0.025, top - 0.005), (0.02, top + 0.03)], 14, at=(0, y, 0.0)))
     for s in (-1.0, 1.0):
-        parts += of(metal, lathe([(0.018, top - 0.005), (0.015, top + 0.05)], 12, at=(s * 0.09, y, 0.0)), rod((s * 0.09 - 0.03, y, top + 0.05), (s * 0.09 + 0.03, y, top + 0.05), 0.007))
+        parts += of(
+            metal,
+            lathe([(0.018, top - 0.005), (0.015, top + 0.05)], 12, at=(s * 0.09, y, 0.0)),
+            rod((s * 0.09 - 0.03, y, top + 0.05), (s * 0.09 + 0.03, y, top + 0.05), 0.007),
+        )
     return Model(parts)
 
 
@@ -62,7 +93,11 @@ def stove(style: Style, rng: np.random.Generator, size: Size) -> Model:
     body = "dark_metal" if style.family in PERIOD else "appliance"
     trim = "brass" if style.family in PERIOD else "chrome"
     face = -d / 2 + 0.04
-    parts = of(body, rounded_box((-w / 2, face, 0.06), (w / 2, d / 2, h - 0.02), 0.01, 1), box((-w / 2 + 0.03, face + 0.04, 0.0), (w / 2 - 0.03, d / 2 - 0.03, 0.07)))
+    parts = of(
+        body,
+        rounded_box((-w / 2, face, 0.06), (w / 2, d / 2, h - 0.02), 0.01, 1),
+        box((-w / 2 + 0.03, face + 0.04, 0.0), (w / 2 - 0.03, d / 2 - 0.03, 0.07)),
+    )
     parts += of("dark_metal", box((-w / 2 + 0.006, face + 0.006, h - 0.025), (w / 2 - 0.006, d / 2 - 0.006, h), 0.004))
     parts += of(body, rounded_box((-w / 2 + 0.03, face - 0.02, 0.17), (w / 2 - 0.03, face + 0.01, h - 0.18), 0.008, 1))
     parts += of("screen", box((-w / 2 + 0.11, face - 0.024, 0.28), (w / 2 - 0.11, face, h - 0.31), 0.003))
@@ -75,10 +110,21 @@ def stove(style: Style, rng: np.random.Generator, size: Size) -> Model:
         for sy in (-1.0, 1.0):
             at = (sx * 0.24 * w, 0.02 + sy * 0.21 * d, h - 0.003)
             parts += of("metal", lathe([(0.085, 0.0), (0.085, 0.012), (0.06, 0.012), (0.06, 0.006)], 20, at=at))
-            parts += of("dark_metal", *(box((at[0] - 0.1 * c - 0.006 * s, at[1] - 0.1 * s - 0.006 * c, h + 0.008), (at[0] + 0.1 * c + 0.006 * s, at[1] + 0.1 * s + 0.006 * c, h + 0.02 + 0.001 * s)) for c, s in ((1, 0), (0, 1))))
+            parts += of(
+                "dark_metal",
+                *(
+                    box(
+                        (at[0] - 0.1 * c - 0.006 * s, at[1] - 0.1 * s - 0.006 * c, h + 0.008),
+                        (at[0] + 0.1 * c + 0.006 * s, at[1] + 0.1 * s + 0.006 * c, h + 0.02 + 0.001 * s),
+                    )
+                    for c, s in ((1, 0), (0, 1))
+                ),
+            )
     x, y = 0.24 * w, 0.02 + 0.21 * d
     kettle = [(0.07, 0.0), (0.085, 0.03), (0.075, 0.09), (0.04, 0.125), (0.02, 0.13), (0.018, 0.15), (0.0, 0.155)]
-    parts += of("brass" if style.family in PERIOD else "chrome", lathe([(0.0, 0.0), *kettle], 20, at=(x, y, h + 0.0205), smooth=1))
+    parts += of(
+        "brass" if style.family in PERIOD else "chrome", lathe([(0.0, 0.0), *kettle], 20, at=(x, y, h + 0.0205), smooth=1)
+    )
     handle = [(x - 0.06, y, h + 0.12), (x - 0.045, y, h + 0.2), (x + 0.045, y, h + 0.2), (x + 0.06, y, h + 0.12)]
     return Model(parts + of("dark_wood", tube(handle, 0.007, 7, smooth=2)))
 
@@ -95,7 +141,11 @@ def fridge(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts = of(slot, rounded_box((-w / 2, face, 0.03), (w / 2, d / 2, h), bend), color=color)
     parts += of("dark_metal", box((-w / 2 + 0.04, face + 0.03, 0.0), (w / 2 - 0.04, d / 2 - 0.04, 0.05)))
     for low, high in ((0.06, split - 0.004), (split + 0.004, h - 0.02)):
-        parts += of(slot, rounded_box((-w / 2 + 0.006, -d / 2 + 0.035, low), (w / 2 - 0.006, face + 0.02, high), min(bend, 0.03)), color=color)
+        parts += of(
+            slot,
+            rounded_box((-w / 2 + 0.006, -d / 2 + 0.035, low), (w / 2 - 0.006, face + 0.02, high), min(bend, 0.03)),
+            color=color,
+        )
     for low, high in ((split - 0.5, split - 0.08), (split + 0.08, split + 0.36)):
         x = -w / 2 + 0.08
         parts += of("chrome", rod((x, -d / 2 + 0.008, low), (x, -d / 2 + 0.008, high), 0.01))
@@ -109,8 +159,10 @@ def wall_cupboard(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts = of(slot, box((-w / 2, -d / 2 + 0.03, 0.0), (w / 2, d / 2, h)))
     count = max(round(w / 0.45), 2)
     edges = np.linspace(-w / 2 + 0.006, w / 2 - 0.006, count + 1)
-    for k, (x0, x1) in enumerate(zip(edges[:-1], edges[1:])):
-        parts += front(style, x0 + 0.004, x1 - 0.004, 0.012, h - 0.012, -d / 2 + 0.03, slot=slot, handle="right" if k % 2 == 0 else "left")
+    for k, (x0, x1) in enumerate(itertools.pairwise(edges.tolist())):
+        parts += front(
+            style, x0 + 0.004, x1 - 0.004, 0.012, h - 0.012, -d / 2 + 0.03, slot=slot, handle="right" if k % 2 == 0 else "left"
+        )
     return Model(parts)
 
 

@@ -17,10 +17,16 @@ def shade(kind: str, radius: float, height: float, z: float) -> list[Part]:
         return of("lamp_shade", ball((0, 0, z + radius), radius, 24))
     if kind == "lantern":
         side = radius * 0.75
-        parts = of("lamp_shade", rounded_box((-side * 0.86, -side * 0.86, z + 0.02), (side * 0.86, side * 0.86, z + height - 0.02), 0.01, 1))
+        parts = of(
+            "lamp_shade",
+            rounded_box((-side * 0.86, -side * 0.86, z + 0.02), (side * 0.86, side * 0.86, z + height - 0.02), 0.01, 1),
+        )
         for sx in (-1.0, 1.0):
             for sy in (-1.0, 1.0):
-                parts += of("dark_metal", box((sx * side - 0.009, sy * side - 0.009, z), (sx * side + 0.009, sy * side + 0.009, z + height)))
+                parts += of(
+                    "dark_metal",
+                    box((sx * side - 0.009, sy * side - 0.009, z), (sx * side + 0.009, sy * side + 0.009, z + height)),
+                )
         for low in (z, z + height - 0.03):
             parts += of("dark_metal", box((-side - 0.012, -side - 0.012, low), (side + 0.012, side + 0.012, low + 0.025)))
         return parts
@@ -43,8 +49,17 @@ def floor_lamp(style: Style, rng: np.random.Generator, size: Size) -> Model:
         parts = []
         for k in range(3):
             a = 2 * math.pi * k / 3 + math.pi / 2
-            parts += of("wood", rod((0.95 * r * math.cos(a), 0.95 * r * math.sin(a), 0.0), (0.02 * math.cos(a), 0.02 * math.sin(a), under - 0.02), 0.013))
-        parts += of("brass", lathe([(0.03, under - 0.06), (0.03, under)], 16), rod((0, 0, under - 0.02), (0, 0, under + 0.1), 0.008))
+            parts += of(
+                "wood",
+                rod(
+                    (0.95 * r * math.cos(a), 0.95 * r * math.sin(a), 0.0),
+                    (0.02 * math.cos(a), 0.02 * math.sin(a), under - 0.02),
+                    0.013,
+                ),
+            )
+        parts += of(
+            "brass", lathe([(0.03, under - 0.06), (0.03, under)], 16), rod((0, 0, under - 0.02), (0, 0, under + 0.1), 0.008)
+        )
     elif style.form.ornament > 0.3:
         parts = of("brass", lathe([(0.15, 0.0), (0.15, 0.02), (0.06, 0.05), (0.03, 0.09)], 24, smooth=1))
         parts += of("brass", lathe([(0.006 + 0.022 * q, 0.08 + z * (under - 0.04)) for q, z in TURNED], 16, smooth=1))
@@ -61,15 +76,24 @@ def table_lamp(style: Style, rng: np.random.Generator, size: Size) -> Model:
     tall = 0.42 * h if kind != "globe" else 2 * min(r, 0.3 * h)
     under = h - tall
     if kind == "lantern":
-        return Model(of("dark_metal", lathe([(0.06, 0.0), (0.06, 0.015), (0.02, 0.02), (0.02, under + 0.01)], 20)) + shade(kind, r, tall, under))
+        return Model(
+            of("dark_metal", lathe([(0.06, 0.0), (0.06, 0.015), (0.02, 0.02), (0.02, under + 0.01)], 20))
+            + shade(kind, r, tall, under)
+        )
     if style.form.legs == "column":
         parts = of("marble", lathe([(0.045 * q + 0.01, z * under) for q, z in COLUMN], 24))
     elif style.form.ornament > 0.3:
         parts = of("brass", lathe([(0.065, 0.0), (0.065, 0.015)], 24))
         vase = [(0.03, 0.01), (0.075, 0.3), (0.07, 0.5), (0.025, 0.85), (0.02, 1.0)]
-        parts += of("ceramic", lathe([(q, 0.01 + z * (under - 0.01)) for q, z in vase], 24, smooth=2), color=pick(rng, style.accents))
+        parts += of(
+            "ceramic", lathe([(q, 0.01 + z * (under - 0.01)) for q, z in vase], 24, smooth=2), color=pick(rng, style.accents)
+        )
     else:
-        parts = of("ceramic", lathe([(0.05, 0.0), (0.07, 0.2 * under), (0.06, 0.7 * under), (0.02, 0.9 * under), (0.012, under)], 24, smooth=2), color=pick(rng, style.accents))
+        parts = of(
+            "ceramic",
+            lathe([(0.05, 0.0), (0.07, 0.2 * under), (0.06, 0.7 * under), (0.02, 0.9 * under), (0.012, under)], 24, smooth=2),
+            color=pick(rng, style.accents),
+        )
     parts += of("brass", rod((0, 0, under - 0.01), (0, 0, under + 0.12), 0.006))
     return Model(parts + shade(kind, min(r, 0.3 * h) if kind == "globe" else r, tall, under))
 
@@ -81,8 +105,17 @@ def chandelier(style: Style, rng: np.random.Generator, size: Size) -> Model:
     body = min(0.5, 0.6 * h)
     metal = "dark_metal" if style.family in ("gothic", "rustic") else "brass"
     count = 8 if style.form.ornament > 0.7 else 6
-    parts = of(metal, lathe([(0.0, 0.0), (0.02, 0.01), (0.035, 0.05), (0.02, 0.1), (0.045, 0.16), (0.06, 0.22), (0.03, 0.3), (0.018, body)], 20, smooth=1))
-    parts += of(metal, rod((0, 0, body - 0.02), (0, 0, h - 0.03), 0.008), lathe([(0.06, h - 0.035), (0.055, h - 0.02), (0.065, h)], 20))
+    parts = of(
+        metal,
+        lathe(
+            [(0.0, 0.0), (0.02, 0.01), (0.035, 0.05), (0.02, 0.1), (0.045, 0.16), (0.06, 0.22), (0.03, 0.3), (0.018, body)],
+            20,
+            smooth=1,
+        ),
+    )
+    parts += of(
+        metal, rod((0, 0, body - 0.02), (0, 0, h - 0.03), 0.008), lathe([(0.06, h - 0.035), (0.055, h - 0.02), (0.065, h)], 20)
+    )
     for k in range(int((h - body - 0.06) / 0.05)):
         link = tube([(0.012 * math.cos(a), 0.0, 0.02 * math.sin(a)) for a in np.linspace(0.1, 2 * math.pi - 0.1, 9)], 0.004, 5)
         parts += of(metal, shift(turn(link, "z", 90 * (k % 2)), (0, 0, body + 0.03 + 0.05 * k)))
@@ -91,12 +124,24 @@ def chandelier(style: Style, rng: np.random.Generator, size: Size) -> Model:
     for k in range(count):
         a = 2 * math.pi * (k + 0.5) / count
         c, s = math.cos(a), math.sin(a)
-        arm = [(0.02 * c, 0.02 * s, 0.2), (0.4 * reach * c, 0.4 * reach * s, 0.11), (0.8 * reach * c, 0.8 * reach * s, 0.12), (reach * c, reach * s, 0.2)]
+        arm = [
+            (0.02 * c, 0.02 * s, 0.2),
+            (0.4 * reach * c, 0.4 * reach * s, 0.11),
+            (0.8 * reach * c, 0.8 * reach * s, 0.12),
+            (reach * c, reach * s, 0.2),
+        ]
         parts += of(metal, tube(arm, 0.008, 6, smooth=3))
-        parts += of(metal, lathe([(0.01, 0.0), (0.035, 0.015), (0.036, 0.02), (0.014, 0.022), (0.014, 0.03)], 12, at=(reach * c, reach * s, 0.195)))
+        parts += of(
+            metal,
+            lathe(
+                [(0.01, 0.0), (0.035, 0.015), (0.036, 0.02), (0.014, 0.022), (0.014, 0.03)], 12, at=(reach * c, reach * s, 0.195)
+            ),
+        )
         parts += candle(reach * c, reach * s, 0.222, 0.09)
         if style.form.ornament > 0.85 and style.family != "gothic":
-            parts += of("glass", lathe([(0.0, 0.0), (0.011, 0.025), (0.0, 0.05)], 6, at=(0.8 * reach * c, 0.8 * reach * s, 0.055)))
+            parts += of(
+                "glass", lathe([(0.0, 0.0), (0.011, 0.025), (0.0, 0.05)], 6, at=(0.8 * reach * c, 0.8 * reach * s, 0.055))
+            )
     return Model(parts)
 
 
@@ -105,7 +150,10 @@ def pendant(style: Style, rng: np.random.Generator, size: Size) -> Model:
     w, _, h = size
     kind = style.form.lamp
     tall = {"globe": w, "drum": 0.5 * w, "lantern": 0.9 * w}.get(kind, 0.55 * w)
-    cord = [*of("dark_metal", rod((0, 0, tall - 0.02), (0, 0, h - 0.02), 0.005, 6)), *of("dark_metal", lathe([(0.05, h - 0.03), (0.05, h)], 16))]
+    cord = [
+        *of("dark_metal", rod((0, 0, tall - 0.02), (0, 0, h - 0.02), 0.005, 6)),
+        *of("dark_metal", lathe([(0.05, h - 0.03), (0.05, h)], 16)),
+    ]
     cord += of("dark_metal", lathe([(0.025, tall - 0.015), (0.025, tall + 0.04)], 12))
     if kind == "globe":
         return Model(cord + of("bulb", ball((0, 0, w / 2), w / 2, 24)))
@@ -114,8 +162,12 @@ def pendant(style: Style, rng: np.random.Generator, size: Size) -> Model:
     if style.family in ("industrial", "midcentury"):
         outer = [(w / 2, 0.0), (0.46 * w, 0.35 * tall), (0.26 * w, 0.8 * tall), (0.05 * w, tall)]
         return Model(cord + of("dark_metal", shell(outer, 0.006)) + of("bulb", ball((0, 0, 0.35 * tall), 0.05)))
-    spokes = [rod((0, 0, 0.93 * tall), (0.4 * w * math.cos(a), 0.4 * w * math.sin(a), 0.93 * tall), 0.004, 5) for a in (0.3, 2.4, 4.5)]
-    return Model(cord + shade(kind, w / 2, tall, 0.0) + of("dark_metal", *spokes, rod((0, 0, 0.45 * tall), (0, 0, tall), 0.006, 6)))
+    spokes = [
+        rod((0, 0, 0.93 * tall), (0.4 * w * math.cos(a), 0.4 * w * math.sin(a), 0.93 * tall), 0.004, 5) for a in (0.3, 2.4, 4.5)
+    ]
+    return Model(
+        cord + shade(kind, w / 2, tall, 0.0) + of("dark_metal", *spokes, rod((0, 0, 0.45 * tall), (0, 0, tall), 0.006, 6))
+    )
 
 
 def candelabra(style: Style, rng: np.random.Generator, size: Size) -> Model:
@@ -124,13 +176,24 @@ def candelabra(style: Style, rng: np.random.Generator, size: Size) -> Model:
     metal = "dark_metal" if style.family in ("gothic", "rustic", "industrial") else "brass"
     reach, top = w / 2 - 0.02, h - 0.2
     parts = of(metal, lathe([(0.15, 0.0), (0.14, 0.025), (0.05, 0.06), (0.025, 0.12)], 20, smooth=1))
-    parts += of(metal, lathe([(0.006 + 0.02 * q, 0.1 + z * (top - 0.28)) for q, z in TURNED], 14, smooth=1), rod((0, 0, top - 0.2), (0, 0, top), 0.011))
+    parts += of(
+        metal,
+        lathe([(0.006 + 0.02 * q, 0.1 + z * (top - 0.28)) for q, z in TURNED], 14, smooth=1),
+        rod((0, 0, top - 0.2), (0, 0, top), 0.011),
+    )
     for k in range(4):
         a = math.pi * k / 2 + math.pi / 4
         c, s = math.cos(a), math.sin(a)
-        arm = [(0.0, 0.0, top - 0.19), (0.5 * reach * c, 0.5 * reach * s, top - 0.22), (0.95 * reach * c, 0.95 * reach * s, top - 0.15), (reach * c, reach * s, top - 0.06)]
+        arm = [
+            (0.0, 0.0, top - 0.19),
+            (0.5 * reach * c, 0.5 * reach * s, top - 0.22),
+            (0.95 * reach * c, 0.95 * reach * s, top - 0.15),
+            (reach * c, reach * s, top - 0.06),
+        ]
         parts += of(metal, tube(arm, 0.009, 7, smooth=3))
-        parts += of(metal, lathe([(0.01, 0.0), (0.034, 0.012), (0.034, 0.018), (0.013, 0.02)], 12, at=(reach * c, reach * s, top - 0.065)))
+        parts += of(
+            metal, lathe([(0.01, 0.0), (0.034, 0.012), (0.034, 0.018), (0.013, 0.02)], 12, at=(reach * c, reach * s, top - 0.065))
+        )
         parts += candle(reach * c, reach * s, top - 0.046, 0.12)
     parts += of(metal, lathe([(0.01, top - 0.01), (0.036, top + 0.004), (0.036, top + 0.01), (0.013, top + 0.012)], 12))
     return Model(parts + candle(0, 0, top + 0.011, 0.13))
@@ -144,7 +207,11 @@ def sconce(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts = of(metal, extrude(arch(kind, 0.6 * w, 0.75 * h), d / 2 - 0.018, d / 2, "y"))
     reach = d / 2 - 0.075
     arm = [(0, d / 2 - 0.01, 0.3 * h), (0, 0.3 * d, 0.18 * h), (0, -reach + 0.05, 0.16 * h), (0, -reach, 0.3 * h)]
-    parts += of(metal, tube(arm, 0.008, 7, smooth=3), lathe([(0.01, 0.0), (0.04, 0.014), (0.04, 0.02), (0.013, 0.022)], 12, at=(0, -reach, 0.29 * h)))
+    parts += of(
+        metal,
+        tube(arm, 0.008, 7, smooth=3),
+        lathe([(0.01, 0.0), (0.04, 0.014), (0.04, 0.02), (0.013, 0.022)], 12, at=(0, -reach, 0.29 * h)),
+    )
     if style.form.lamp in ("candle", "tripod"):
         return Model(parts + candle(0, -reach, 0.29 * h + 0.021, 0.45 * h))
     lamp = shade("globe" if style.form.lamp == "globe" else "cone", 0.07, 0.5 * h, 0.29 * h + 0.03)
@@ -153,7 +220,7 @@ def sconce(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 def candles(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """Three candles of different heights on a tray."""
-    w, d, h = size
+    w, _d, h = size
     parts = of("brass", lathe([(w / 2, 0.0), (w / 2, 0.012)], 24))
     for k, share in enumerate((1.0, 0.72, 0.5)):
         a = 2 * math.pi * k / 3 + 0.4

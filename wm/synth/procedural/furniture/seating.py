@@ -31,7 +31,12 @@ def lounge(style: Style, rng: np.random.Generator, size: Size, seats: int) -> Mo
         x0, x1 = -inner / 2 + k * pitch + 0.003, -inner / 2 + (k + 1) * pitch - 0.003
         parts += of(cloth, rounded_box((x0, -d / 2 + 0.005, seat - 0.135), (x1, d / 2 - back - 0.01, seat), soft))
         parts += lounge_back(style, (x0 + x1) / 2, x1 - x0, d, seat, h, back, soft, cloth=cloth, wood=wood)
-    parts += of(cloth, rounded_box((-w / 2 + 0.025, d / 2 - back * 0.7, foot + 0.02), (w / 2 - 0.025, d / 2, min(arm_top + 0.03, h - 0.1)), 0.03))
+    parts += of(
+        cloth,
+        rounded_box(
+            (-w / 2 + 0.025, d / 2 - back * 0.7, foot + 0.02), (w / 2 - 0.025, d / 2, min(arm_top + 0.03, h - 0.1)), 0.03
+        ),
+    )
     for k in range(seats if seats < 3 else 2):
         if rng.random() < 0.75:
             side = -1 if k == 0 else 1
@@ -42,7 +47,9 @@ def lounge(style: Style, rng: np.random.Generator, size: Size, seats: int) -> Mo
     return Model(parts)
 
 
-def arms(style: Style, w: float, d: float, foot: float, top: float, arm: float, *, framed: bool, cloth: str, wood: str) -> list[Part]:
+def arms(
+    style: Style, w: float, d: float, foot: float, top: float, arm: float, *, framed: bool, cloth: str, wood: str
+) -> list[Part]:
     """Two arms: open wooden ones, rolled or square upholstered ones."""
     parts: list[Part] = []
     for s in (-1.0, 1.0):
@@ -52,7 +59,12 @@ def arms(style: Style, w: float, d: float, foot: float, top: float, arm: float, 
             parts += of(wood, tube([(x, -d / 2 + 0.06, foot), (x, -d / 2 + 0.08, top - 0.015)], [0.02, 0.017], 10))
             parts += of(wood, tube([(x, d / 2 - 0.16, foot), (x, d / 2 - 0.14, top - 0.015)], [0.02, 0.017], 10))
             continue
-        parts += of(cloth, rounded_box((x - arm / 2, -d / 2 + 0.02, foot), (x + arm / 2, d / 2 - 0.03, top - 0.01), 0.02 + 0.03 * style.form.softness))
+        parts += of(
+            cloth,
+            rounded_box(
+                (x - arm / 2, -d / 2 + 0.02, foot), (x + arm / 2, d / 2 - 0.03, top - 0.01), 0.02 + 0.03 * style.form.softness
+            ),
+        )
         if style.form.softness > 0.55 and style.form.ornament > 0.25:
             roll = arm * 0.62
             parts += of(cloth, tube([(x, -d / 2 + 0.012, top - 0.02), (x, d / 2 - 0.05, top - 0.02)], roll, 16))
@@ -60,7 +72,9 @@ def arms(style: Style, w: float, d: float, foot: float, top: float, arm: float, 
     return parts
 
 
-def lounge_back(style: Style, x: float, width: float, d: float, seat: float, h: float, back: float, soft: float, *, cloth: str, wood: str) -> list[Part]:  # fmt: skip
+def lounge_back(
+    style: Style, x: float, width: float, d: float, seat: float, h: float, back: float, soft: float, *, cloth: str, wood: str
+) -> list[Part]:
     """The back of one seat: a padded arch in a carved frame, or a leaning cushion."""
     kind = {"pointed_arch": "pointed", "round_arch": "round", "wave": "wave"}.get(style.form.back)
     if kind:
@@ -95,13 +109,19 @@ def chair(style: Style, rng: np.random.Generator, size: Size) -> Model:
         parts += legs(style, w, d, seat - 0.03, 0.042, slot=wood)
     parts += of(wood, rounded_box((-w / 2, -d / 2, seat - 0.05), (w / 2, d / 2, seat), 0.014, 1))
     if form.softness > 0.4:
-        parts += of("fabric", puff((-w / 2 + 0.02, -d / 2 + 0.015, seat - 0.015), (w / 2 - 0.02, d / 2 - 0.05, seat + 0.045), square=0.25))
+        parts += of(
+            "fabric", puff((-w / 2 + 0.02, -d / 2 + 0.015, seat - 0.015), (w / 2 - 0.02, d / 2 - 0.05, seat + 0.045), square=0.25)
+        )
     if form.legs in ("turned", "straight") and form.ornament > 0.25:
         z = 0.16
-        parts += of(wood, *(rod((s * (w / 2 - 0.035), -d / 2 + 0.03, z), (s * (w / 2 - 0.035), d / 2 - 0.03, z), 0.011) for s in (-1, 1)))
+        parts += of(
+            wood, *(rod((s * (w / 2 - 0.035), -d / 2 + 0.03, z), (s * (w / 2 - 0.035), d / 2 - 0.03, z), 0.011) for s in (-1, 1))
+        )
         parts += of(wood, rod((-w / 2 + 0.035, 0, z), (w / 2 - 0.035, 0, z), 0.011))
     lean = 4 if form.back == "pointed_arch" else 9
-    backs = [Part(p.slot, turn(p.solid, "x", -lean, (0, d / 2 - 0.02, seat)), p.color) for p in chair_back(style, w, d, seat, h, wood)]
+    backs = [
+        Part(p.slot, turn(p.solid, "x", -lean, (0, d / 2 - 0.02, seat)), p.color) for p in chair_back(style, w, d, seat, h, wood)
+    ]
     return Model(parts + backs)
 
 
@@ -111,7 +131,12 @@ def sabre_legs(w: float, d: float, seat: float) -> list[Solid]:
     for sx in (-1.0, 1.0):
         for sy in (-1.0, 1.0):
             x, y = sx * (w / 2 - 0.03), sy * (d / 2 - 0.03)
-            path = [(x, y + sy * 0.06, 0.0), (x, y - sy * 0.005, seat * 0.4), (x, y - sy * 0.01, seat * 0.75), (x, y, seat - 0.02)]
+            path = [
+                (x, y + sy * 0.06, 0.0),
+                (x, y - sy * 0.005, seat * 0.4),
+                (x, y - sy * 0.01, seat * 0.75),
+                (x, y, seat - 0.02),
+            ]
             solids.append(tube(path, [0.014, 0.018, 0.022, 0.026], 10, smooth=2))
     return solids
 
@@ -125,7 +150,10 @@ def chair_back(style: Style, w: float, d: float, seat: float, h: float, wood: st
     if kind == "pointed_arch":
         parts = of(wood, extrude(tracery(w - 0.02, tall, 0.042, at=(0, base)), y0, y1, "y"))
         for s in (-1.0, 1.0):
-            parts += of(wood, box((s * (w / 2 - 0.02) - 0.018, y0 - 0.006, base), (s * (w / 2 - 0.02) + 0.018, y1 + 0.006, base + 0.72 * tall)))
+            parts += of(
+                wood,
+                box((s * (w / 2 - 0.02) - 0.018, y0 - 0.006, base), (s * (w / 2 - 0.02) + 0.018, y1 + 0.006, base + 0.72 * tall)),
+            )
             if style.form.ornament > 0.5:
                 parts += of(wood, finial(s * (w / 2 - 0.02), (y0 + y1) / 2, base + 0.72 * tall - 0.003, 0.055))
         return parts
@@ -137,19 +165,38 @@ def chair_back(style: Style, w: float, d: float, seat: float, h: float, wood: st
             *of("fabric", extrude(pad, y0 + 0.004, y1 - 0.006, "y"), extrude(pad.buffer(-0.03), y0 - 0.012, y1 - 0.01, "y")),
         ]
     if kind == "klismos":
-        bow = [(-w / 2 + 0.015, d / 2 - 0.10, 0), (-w / 4, d / 2 - 0.03, 0), (0, d / 2 - 0.012, 0), (w / 4, d / 2 - 0.03, 0), (w / 2 - 0.015, d / 2 - 0.10, 0)]
+        bow = [
+            (-w / 2 + 0.015, d / 2 - 0.10, 0),
+            (-w / 4, d / 2 - 0.03, 0),
+            (0, d / 2 - 0.012, 0),
+            (w / 4, d / 2 - 0.03, 0),
+            (w / 2 - 0.015, d / 2 - 0.10, 0),
+        ]
         board = shift(tube([(x, y, 0) for x, y, _ in bow], 0.011, 10, smooth=3, flatten=1.0), (0, 0, 0))
         high = board.vertices * [1, 1, 7.0]
         posts = [tube([(x, y, base), (x, y, h - 0.05)], 0.014, 8) for x, y, _ in (bow[0], bow[2], bow[4])]
-        return of(wood, Solid(high + [0, 0, h - 0.085], board.faces), *posts)
-    posts = [tube([(s * (w / 2 - 0.025), d / 2 - 0.03, base), (s * (w / 2 - 0.025), d / 2 - 0.03, h - 0.01)], [0.019, 0.014], 10) for s in (-1.0, 1.0)]
+        return of(wood, Solid(high + np.array([0.0, 0.0, h - 0.085]), board.faces), *posts)
+    posts = [
+        tube([(s * (w / 2 - 0.025), d / 2 - 0.03, base), (s * (w / 2 - 0.025), d / 2 - 0.03, h - 0.01)], [0.019, 0.014], 10)
+        for s in (-1.0, 1.0)
+    ]
     if kind == "slats":
-        rails = [box((-w / 2 + 0.02, y0 + 0.006, z), (w / 2 - 0.02, y1 - 0.006, z + 0.06), 0.006) for z in np.linspace(seat + 0.14, h - 0.08, 3)]
+        rails = [
+            box((-w / 2 + 0.02, y0 + 0.006, z), (w / 2 - 0.02, y1 - 0.006, z + 0.06), 0.006)
+            for z in np.linspace(seat + 0.14, h - 0.08, 3)
+        ]
         return of(wood, *posts, *rails)
     if kind == "spindle":
         crest = rounded_box((-w / 2, y0 - 0.004, h - 0.07), (w / 2, y1 + 0.004, h), 0.014, 1)
-        bars = [tube([(x, d / 2 - 0.03, seat - 0.01), (x, d / 2 - 0.03, seat + 0.5 * (h - seat)), (x, d / 2 - 0.03, h - 0.06)], [0.007, 0.011, 0.007], 8, smooth=2)
-                for x in np.linspace(-w / 2 + 0.08, w / 2 - 0.08, 5)]  # fmt: skip
+        bars = [
+            tube(
+                [(x, d / 2 - 0.03, seat - 0.01), (x, d / 2 - 0.03, seat + 0.5 * (h - seat)), (x, d / 2 - 0.03, h - 0.06)],
+                [0.007, 0.011, 0.007],
+                8,
+                smooth=2,
+            )
+            for x in np.linspace(-w / 2 + 0.08, w / 2 - 0.08, 5)
+        ]
         return of(wood, *posts, crest, *bars)
     panel = extrude(rounded(w - 0.03, 0.55 * tall, 0.05, at=(0, h - 0.55 * tall)), y0, y1, "y")
     return [*of(wood, *posts), *of("fabric" if style.form.softness > 0.5 else wood, panel)]
@@ -171,10 +218,15 @@ def office_chair(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts += of(cloth, rounded_box((-w * 0.38, -d * 0.4, seat - 0.08), (w * 0.38, d * 0.34, seat), 0.035))
     rest = rounded_box((-w * 0.35, d * 0.3, seat + 0.12), (w * 0.35, d * 0.3 + 0.07, h), 0.033)
     parts += of(cloth, turn(rest, "x", -8, (0, d * 0.3, seat)))
-    parts += of("dark_metal", tube([(0, d * 0.1, seat - 0.075), (0, d * 0.33, seat - 0.06), (0, d * 0.4, seat + 0.2)], 0.018, 8, smooth=2))
+    parts += of(
+        "dark_metal", tube([(0, d * 0.1, seat - 0.075), (0, d * 0.33, seat - 0.06), (0, d * 0.4, seat + 0.2)], 0.018, 8, smooth=2)
+    )
     for s in (-1.0, 1.0):
         x = s * w * 0.42
-        parts += of("dark_metal", tube([(s * w * 0.3, 0.02, seat - 0.06), (x, 0.02, seat - 0.03), (x, 0.02, seat + 0.19)], 0.013, 8, smooth=2))
+        parts += of(
+            "dark_metal",
+            tube([(s * w * 0.3, 0.02, seat - 0.06), (x, 0.02, seat - 0.03), (x, 0.02, seat + 0.19)], 0.013, 8, smooth=2),
+        )
         parts += of("dark_metal", rounded_box((x - 0.035, -0.13, seat + 0.18), (x + 0.035, 0.15, seat + 0.21), 0.014, 1))
     return Model(parts)
 
@@ -182,8 +234,10 @@ def office_chair(style: Style, rng: np.random.Generator, size: Size) -> Model:
 def stool(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A round seat on four legs."""
     w, _, h = size
-    parts = legs(style, w * 0.86, w * 0.86, h - 0.03, 0.04, slot=frame_wood(style))
-    parts += of(frame_wood(style), lathe([(w / 2 - 0.01, h - 0.045), (w / 2, h - 0.035), (w / 2, h - 0.012), (w / 2 - 0.012, h)], 24))
+    parts = legs(style, w * 0.7, w * 0.7, h - 0.03, 0.04, slot=frame_wood(style))
+    parts += of(
+        frame_wood(style), lathe([(w / 2 - 0.01, h - 0.045), (w / 2, h - 0.035), (w / 2, h - 0.012), (w / 2 - 0.012, h)], 24)
+    )
     return Model(parts)
 
 
@@ -192,7 +246,10 @@ def ottoman(style: Style, rng: np.random.Generator, size: Size) -> Model:
     w, d, h = size
     parts = legs(style, w, d, 0.1, 0.045, slot=frame_wood(style))
     parts += of("fabric", rounded_box((-w / 2, -d / 2, 0.08), (w / 2, d / 2, h - 0.05), 0.04))
-    return Model(parts + of("fabric", puff((-w / 2 + 0.005, -d / 2 + 0.005, h - 0.14), (w / 2 - 0.005, d / 2 - 0.005, h), square=0.2, flat=0.6)))
+    return Model(
+        parts
+        + of("fabric", puff((-w / 2 + 0.005, -d / 2 + 0.005, h - 0.14), (w / 2 - 0.005, d / 2 - 0.005, h), square=0.2, flat=0.6))
+    )
 
 
 def bench(style: Style, rng: np.random.Generator, size: Size) -> Model:
@@ -201,15 +258,35 @@ def bench(style: Style, rng: np.random.Generator, size: Size) -> Model:
     if style.form.legs == "column":
         parts = of("marble", box((-w / 2, -d / 2, h - 0.08), (w / 2, d / 2, h), 0.012))
         for s in (-1.0, 1.0):
-            parts += of("marble", extrude([(-0.16, 0.0), (0.16, 0.0), (0.11, 0.08), (0.08, h - 0.14), (0.14, h - 0.07), (-0.14, h - 0.07), (-0.08, h - 0.14), (-0.11, 0.08)],
-                                          s * (w / 2 - 0.22) - 0.06, s * (w / 2 - 0.22) + 0.06, "x"))  # fmt: skip
+            parts += of(
+                "marble",
+                extrude(
+                    [
+                        (-0.16, 0.0),
+                        (0.16, 0.0),
+                        (0.11, 0.08),
+                        (0.08, h - 0.14),
+                        (0.14, h - 0.07),
+                        (-0.14, h - 0.07),
+                        (-0.08, h - 0.14),
+                        (-0.11, 0.08),
+                    ],
+                    s * (w / 2 - 0.22) - 0.06,
+                    s * (w / 2 - 0.22) + 0.06,
+                    "x",
+                ),
+            )
         return Model(parts)
     wood = frame_wood(style)
-    parts = legs(style, w, d, h - 0.08, 0.06, slot=wood) + of(wood, box((-w / 2, -d / 2, h - 0.09), (w / 2, d / 2, h - 0.04), 0.006))
+    parts = legs(style, w, d, h - 0.08, 0.06, slot=wood) + of(
+        wood, box((-w / 2, -d / 2, h - 0.09), (w / 2, d / 2, h - 0.04), 0.006)
+    )
     if w > 1.3 and style.form.legs not in ("hairpin", "slab"):
         for y in (-d / 2 + 0.05, d / 2 - 0.05):
             parts += of(wood, *leg(style.form.legs, 0.0, y, h - 0.08, 0.055))
-    return Model(parts + of("fabric", rounded_box((-w / 2 + 0.015, -d / 2 + 0.01, h - 0.045), (w / 2 - 0.015, d / 2 - 0.01, h), 0.02)))
+    return Model(
+        parts + of("fabric", rounded_box((-w / 2 + 0.015, -d / 2 + 0.01, h - 0.045), (w / 2 - 0.015, d / 2 - 0.01, h), 0.02))
+    )
 
 
 KINDS = {

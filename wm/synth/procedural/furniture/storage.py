@@ -50,7 +50,18 @@ def carcass(w: float, d: float, z0: float, z1: float, thickness: float = 0.025) 
     ]
 
 
-def books(style: Style, rng: np.random.Generator, x0: float, x1: float, y0: float, y1: float, z: float, room: float, *, fill: float = 0.9) -> list[Part]:
+def books(
+    style: Style,
+    rng: np.random.Generator,
+    x0: float,
+    x1: float,
+    y0: float,
+    y1: float,
+    z: float,
+    room: float,
+    *,
+    fill: float = 0.9,
+) -> list[Part]:
     """A row of standing books between x0 and x1 with their spines at y0, on z, under a clear height."""
     parts: list[Part] = []
     x = x0
@@ -66,7 +77,11 @@ def books(style: Style, rng: np.random.Generator, x0: float, x1: float, y0: floa
         color = pick(rng, style.accents)
         shade = float(rng.uniform(0.55, 1.0))
         tint = (color[0] * shade, color[1] * shade, color[2] * shade)
-        parts += of("book", box((x + 0.001, y0 + 0.002 + float(rng.uniform(0, 0.015)), z), (x + thick - 0.001, y0 + 0.01 + deep, z + tall), 0.0), color=tint)
+        parts += of(
+            "book",
+            box((x + 0.001, y0 + 0.002 + float(rng.uniform(0, 0.015)), z), (x + thick - 0.001, y0 + 0.01 + deep, z + tall), 0.0),
+            color=tint,
+        )
         x += thick
     return parts
 
@@ -88,7 +103,14 @@ def bookshelf(style: Style, rng: np.random.Generator, size: Size) -> Model:
         parts += of(wood, box((-pier / 2, -d / 2 + 0.006, base + 0.02), (pier / 2, d / 2 - 0.016, top - 0.02)))
     if style.form.legs == "column":
         for s in (-1.0, 1.0):
-            parts += of(wood, lathe([(0.03 * r + 0.004, base + z * (top - base)) for r, z in COLUMN], 14, at=(s * (w / 2 - 0.02), -d / 2 - 0.012, 0.0)))
+            parts += of(
+                wood,
+                lathe(
+                    [(0.03 * r + 0.004, base + z * (top - base)) for r, z in COLUMN],
+                    14,
+                    at=(s * (w / 2 - 0.02), -d / 2 - 0.012, 0.0),
+                ),
+            )
     elif style.form.back in ("pointed_arch", "round_arch"):
         parts += of(wood, extrude(spandrel(style, w - 0.02, 0.2, bays, top - 0.2), -d / 2 - 0.012, -d / 2 + 0.012, "y"))
     for k in range(levels):
@@ -100,9 +122,20 @@ def bookshelf(style: Style, rng: np.random.Generator, size: Size) -> Model:
             x0 = -inner + b * (inner + pier) if bays == 2 else -inner
             x1 = x0 + (inner - pier if bays == 2 else 2 * inner)
             if rng.random() < 0.85:
-                parts += books(style, rng, x0 + 0.01, x1 - 0.01, -d / 2 + 0.04, d / 2 - 0.02, z + 0.001, room - (0.1 if k == levels - 1 and style.form.back in ("pointed_arch", "round_arch") else 0.0))
+                parts += books(
+                    style,
+                    rng,
+                    x0 + 0.01,
+                    x1 - 0.01,
+                    -d / 2 + 0.04,
+                    d / 2 - 0.02,
+                    z + 0.001,
+                    room - (0.1 if k == levels - 1 and style.form.back in ("pointed_arch", "round_arch") else 0.0),
+                )
             else:
-                parts += vessel(style, rng, float(rng.uniform(x0 + 0.12, x1 - 0.12)), -d / 2 + 0.14, z + 0.001, min(0.24, room - 0.08))
+                parts += vessel(
+                    style, rng, float(rng.uniform(x0 + 0.12, x1 - 0.12)), -d / 2 + 0.14, z + 0.001, min(0.24, room - 0.08)
+                )
     return Model(parts)
 
 
@@ -118,14 +151,22 @@ def spandrel(style: Style, w: float, height: float, bays: int, z: float):
 
 def vessel(style: Style, rng: np.random.Generator, x: float, y: float, z: float, height: float) -> list[Part]:
     """A vase or bowl."""
-    shapes = ([(0.3, 0.0), (0.48, 0.25), (0.52, 0.45), (0.25, 0.75), (0.2, 0.85), (0.3, 1.0)],
-              [(0.25, 0.0), (0.5, 0.5), (0.42, 0.8), (0.3, 0.92), (0.36, 1.0)],
-              [(0.2, 0.0), (0.28, 0.1), (0.55, 0.7), (0.6, 1.0)])  # fmt: skip
+    shapes = (
+        [(0.3, 0.0), (0.48, 0.25), (0.52, 0.45), (0.25, 0.75), (0.2, 0.85), (0.3, 1.0)],
+        [(0.25, 0.0), (0.5, 0.5), (0.42, 0.8), (0.3, 0.92), (0.36, 1.0)],
+        [(0.2, 0.0), (0.28, 0.1), (0.55, 0.7), (0.6, 1.0)],
+    )
     shape = shapes[int(rng.integers(len(shapes)))]
-    return of("ceramic", lathe([(0.7 * r * height, z + q * height) for r, q in shape], 20, at=(x, y, 0.0), smooth=2), color=pick(rng, style.accents))
+    return of(
+        "ceramic",
+        lathe([(0.7 * r * height, z + q * height) for r, q in shape], 20, at=(x, y, 0.0), smooth=2),
+        color=pick(rng, style.accents),
+    )
 
 
-def cupboard(style: Style, size: Size, columns: int, rows: int, *, slot: str, base: float, handle: str, tall: bool = False) -> Model:
+def cupboard(
+    style: Style, size: Size, columns: int, rows: int, *, slot: str, base: float, handle: str, tall: bool = False
+) -> Model:
     """A closed case with a grid of doors or drawers."""
     w, d, h = size
     cap = (0.03 if style.form.ornament < 0.3 else 0.17) if tall else 0.03
@@ -141,13 +182,17 @@ def cupboard(style: Style, size: Size, columns: int, rows: int, *, slot: str, ba
     for i in range(columns):
         side = handle if handle == "centre" else ("right" if i < columns / 2 else "left")
         for k in range(rows):
-            parts += front(style, xs[i] + 0.004, xs[i + 1] - 0.004, zs[k] + 0.004, zs[k + 1] - 0.004, -d / 2 + 0.03, slot=slot, handle=side)
+            parts += front(
+                style, xs[i] + 0.004, xs[i + 1] - 0.004, zs[k] + 0.004, zs[k + 1] - 0.004, -d / 2 + 0.03, slot=slot, handle=side
+            )
     tops = () if tall else (Top(h, -w / 2 + 0.02, -d / 2 + 0.02, w / 2 - 0.02, d / 2 - 0.02),)
     return Model(parts, tops)
 
 
 def wardrobe(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    slot = "painted_wood" if style.family in ("scandinavian", "coastal", "minimalist", "baroque", "surreal") else frame_wood(style)
+    slot = (
+        "painted_wood" if style.family in ("scandinavian", "coastal", "minimalist", "baroque", "surreal") else frame_wood(style)
+    )
     return cupboard(style, size, 2 if size[0] < 1.3 else 3, 1, slot=slot, base=0.09, handle="right", tall=True)
 
 
@@ -176,7 +221,11 @@ def chest(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts += of(wood, extrude(lid, -w / 2, w / 2, "x"))
     for x in (-0.32 * w, 0.32 * w):
         strap = [((d / 2 + 0.006) * math.cos(a), rim + 0.004 + (h - rim - 0.004) * math.sin(a)) for a in t]
-        parts += of("dark_metal", extrude(strap, x - 0.02, x + 0.02, "x"), box((x - 0.02, -d / 2 + 0.003, 0.06), (x + 0.02, -d / 2 + 0.03, rim), 0.002))
+        parts += of(
+            "dark_metal",
+            extrude(strap, x - 0.02, x + 0.02, "x"),
+            box((x - 0.02, -d / 2 + 0.003, 0.06), (x + 0.02, -d / 2 + 0.03, rim), 0.002),
+        )
     parts += of("brass", box((-0.045, -d / 2 - 0.008, rim - 0.09), (0.045, -d / 2 + 0.03, rim + 0.03), 0.004))
     return Model(parts)
 
@@ -185,7 +234,12 @@ def blanket_chest(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A low flat chest with a cushion, for the foot of a bed."""
     w, d, h = size
     case = cupboard(style, (w, d, h - 0.06), 3, 1, slot=frame_wood(style), base=0.07, handle="none")
-    return Model([*case.parts, *of("fabric", rounded_box((-w / 2 + 0.01, -d / 2 + 0.01, h - 0.066), (w / 2 - 0.01, d / 2 - 0.01, h), 0.028))])
+    return Model(
+        [
+            *case.parts,
+            *of("fabric", rounded_box((-w / 2 + 0.01, -d / 2 + 0.01, h - 0.066), (w / 2 - 0.01, d / 2 - 0.01, h), 0.028)),
+        ]
+    )
 
 
 def wall_shelf(style: Style, rng: np.random.Generator, size: Size) -> Model:
@@ -195,8 +249,10 @@ def wall_shelf(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts = of(wood, box((-w / 2, -d / 2, 0.09), (w / 2, d / 2, 0.115)))
     for s in (-1.0, 1.0):
         x = s * (w / 2 - 0.12)
-        parts += of("dark_metal" if style.form.ornament < 0.3 else wood,
-                    extrude([(d / 2, 0.0), (d / 2, 0.094), (-d / 2 + 0.03, 0.094), (d / 2 - 0.03, 0.03)], x - 0.01, x + 0.01, "x"))  # fmt: skip
+        parts += of(
+            "dark_metal" if style.form.ornament < 0.3 else wood,
+            extrude([(d / 2, 0.0), (d / 2, 0.094), (-d / 2 + 0.03, 0.094), (d / 2 - 0.03, 0.03)], x - 0.01, x + 0.01, "x"),
+        )
     split = float(rng.uniform(0.45, 0.65))
     parts += books(style, rng, -w / 2 + 0.02, -w / 2 + split * w, -d / 2 + 0.02, d / 2 - 0.01, 0.116, h - 0.12, fill=0.97)
     return Model(parts + vessel(style, rng, w / 2 - 0.16, 0.0, 0.116, min(0.2, h - 0.13)))
@@ -212,7 +268,9 @@ def basket(style: Style, rng: np.random.Generator, size: Size) -> Model:
         z = rim * (k + 1) / 8
         rings += [((0.86 + 0.13 * (k + 0.5) / 8) * r, z - rim / 16), ((0.84 + 0.12 * (k + 1) / 8) * r, z)]
     parts = of("woven", lathe([*rings, (0.86 * r, rim), (0.82 * r, rim - 0.03)], 24))
-    return Model(parts + of("blanket", turn(puff((-0.75 * r, -0.75 * r, rim - 0.08), (0.75 * r, 0.75 * r, h), square=0.6), "z", 20)))
+    return Model(
+        parts + of("blanket", turn(puff((-0.75 * r, -0.75 * r, rim - 0.08), (0.75 * r, 0.75 * r, h), square=0.6), "z", 20))
+    )
 
 
 KINDS = {

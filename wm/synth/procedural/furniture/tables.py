@@ -1,5 +1,7 @@
 """Tables: dining (long and round), coffee, side, console, desk, nightstand."""
 
+import itertools
+
 import numpy as np
 
 from wm.synth.procedural.finish import Style
@@ -12,7 +14,9 @@ from wm.synth.procedural.solids import box, extrude, lathe, rounded_box, shift, 
 def slab_top(style: Style, w: float, d: float, h: float, thickness: float, *, slot: str) -> list[Part]:
     """A table top with the edge its style gives it."""
     if style.form.ornament > 0.5:
-        lower = rounded_box((-w / 2 + 0.015, -d / 2 + 0.015, h - thickness - 0.012), (w / 2 - 0.015, d / 2 - 0.015, h - thickness * 0.5), 0.008, 1)
+        lower = rounded_box(
+            (-w / 2 + 0.015, -d / 2 + 0.015, h - thickness - 0.012), (w / 2 - 0.015, d / 2 - 0.015, h - thickness * 0.5), 0.008, 1
+        )
         return of(slot, rounded_box((-w / 2, -d / 2, h - thickness), (w / 2, d / 2, h), 0.012, 1), lower)
     if style.form.softness > 0.5:
         corner = extrude(rounded(w, d, 0.05, at=(0.0, -d / 2)), h - thickness, h, "z")
@@ -30,9 +34,22 @@ def table(style: Style, w: float, d: float, h: float, *, thickness: float, leg: 
     if form.legs == "column":
         parts = of("marble", rounded_box((-w / 2, -d / 2, h - thickness - 0.01), (w / 2, d / 2, h), 0.012, 1))
         for s in (-1.0, 1.0):
-            outline = [(-0.36 * d, 0.0), (0.36 * d, 0.0), (0.36 * d, 0.06), (0.24 * d, 0.11), (0.16 * d, h * 0.5), (0.22 * d, h - 0.15),
-                       (0.38 * d, h - 0.08), (0.38 * d, h - thickness), (-0.38 * d, h - thickness), (-0.38 * d, h - 0.08),
-                       (-0.22 * d, h - 0.15), (-0.16 * d, h * 0.5), (-0.24 * d, 0.11), (-0.36 * d, 0.06)]  # fmt: skip
+            outline = [
+                (-0.36 * d, 0.0),
+                (0.36 * d, 0.0),
+                (0.36 * d, 0.06),
+                (0.24 * d, 0.11),
+                (0.16 * d, h * 0.5),
+                (0.22 * d, h - 0.15),
+                (0.38 * d, h - 0.08),
+                (0.38 * d, h - thickness),
+                (-0.38 * d, h - thickness),
+                (-0.38 * d, h - 0.08),
+                (-0.22 * d, h - 0.15),
+                (-0.16 * d, h * 0.5),
+                (-0.24 * d, 0.11),
+                (-0.36 * d, 0.06),
+            ]
             x = s * (w / 2 - 0.16 * w)
             parts += of("marble", extrude(outline, x - 0.05, x + 0.05, "x"))
         return Model(parts, top_of(w, d, h))
@@ -67,13 +84,32 @@ def round_table(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts = of(slot, lathe([(r - 0.02, h - 0.04), (r, h - 0.03), (r, h - 0.008), (r - 0.008, h)], 36))
     profile = COLUMN if stone else TURNED
     if style.form.legs in ("tapered", "slab", "straight", "hairpin"):
-        parts += of(slot, lathe([(0.42 * r, 0.0), (0.42 * r, 0.012), (0.1, 0.05), (0.045, 0.14), (0.04, h - 0.12), (0.09, h - 0.035)], 28, smooth=1))
+        parts += of(
+            slot,
+            lathe(
+                [
+                    (0.42 * r, 0.0),
+                    (0.42 * r, 0.012),
+                    (0.12 * r + 0.02, 0.05),
+                    (0.045 * r + 0.018, 0.14),
+                    (0.04 * r + 0.016, h - 0.12),
+                    (0.12 * r + 0.01, h - 0.035),
+                ],
+                28,
+                smooth=1,
+            ),
+        )
         return Model(parts, (Top(h, -0.6 * r, -0.6 * r, 0.6 * r, 0.6 * r),))
-    parts += of(slot, lathe([(0.012 + 0.085 * q, 0.12 + z * (h - 0.155)) for q, z in profile], 24))
+    parts += of(slot, lathe([(0.012 + (0.03 + 0.11 * r) * q, 0.12 + z * (h - 0.155)) for q, z in profile], 24))
     for k in range(3):
         a = 2 * np.pi * k / 3 + np.pi / 6
         c, s = float(np.cos(a)), float(np.sin(a))
-        path = [(0.03 * c, 0.03 * s, 0.24), (0.3 * r * c, 0.3 * r * s, 0.2), (0.55 * r * c, 0.55 * r * s, 0.06), (0.68 * r * c, 0.68 * r * s, 0.026)]
+        path = [
+            (0.03 * c, 0.03 * s, 0.24),
+            (0.3 * r * c, 0.3 * r * s, 0.2),
+            (0.55 * r * c, 0.55 * r * s, 0.06),
+            (0.68 * r * c, 0.68 * r * s, 0.026),
+        ]
         parts += of(slot, tube(path, [0.04, 0.034, 0.028, 0.025], 10, smooth=2))
     return Model(parts, (Top(h, -0.6 * r, -0.6 * r, 0.6 * r, 0.6 * r),))
 
@@ -115,7 +151,9 @@ def desk(style: Style, rng: np.random.Generator, size: Size) -> Model:
     wood = frame_wood(style)
     parts = slab_top(style, w, d, h, 0.035, slot=wood)
     if style.form.ornament > 0.3:
-        parts += of("leather", rounded_box((-w / 2 + 0.12, -d / 2 + 0.08, h - 0.012), (w / 2 - 0.12, d / 2 - 0.1, h + 0.002), 0.003, 1))
+        parts += of(
+            "leather", rounded_box((-w / 2 + 0.12, -d / 2 + 0.08, h - 0.012), (w / 2 - 0.12, d / 2 - 0.1, h + 0.002), 0.003, 1)
+        )
     sides = (-1.0, 1.0) if w > 1.35 and style.form.ornament > 0.3 else (1.0,)
     wide = 0.38
     for s in (-1.0, 1.0):
@@ -128,7 +166,7 @@ def desk(style: Style, rng: np.random.Generator, size: Size) -> Model:
         parts += of(wood, box((x0, -d / 2 + 0.05, 0.05), (x1, d / 2 - 0.03, h - 0.03)))
         parts += of(wood, box((x0 + 0.02, -d / 2 + 0.08, 0.0), (x1 - 0.02, d / 2 - 0.05, 0.06)))
         levels = np.linspace(0.07, h - 0.055, 4)
-        for low, high in zip(levels[:-1], levels[1:]):
+        for low, high in itertools.pairwise(levels.tolist()):
             parts += front(style, x0 + 0.012, x1 - 0.012, low + 0.004, high - 0.004, -d / 2 + 0.05, slot=wood, handle="centre")
     parts += of(wood, box((-w / 2 + 0.05, d / 2 - 0.06, 0.3), (w / 2 - 0.05, d / 2 - 0.04, h - 0.03)))
     return Model(parts, (Top(h + 0.002, -w / 2 + 0.06, -d / 2 + 0.05, w / 2 - 0.06, d / 2 - 0.04),))
@@ -139,9 +177,15 @@ def nightstand(style: Style, rng: np.random.Generator, size: Size) -> Model:
     w, d, h = size
     wood = frame_wood(style)
     foot = 0.14 if style.form.legs in ("tapered", "hairpin", "cabriole") else 0.08
-    parts = legs(style, w - 0.01, d - 0.01, foot + 0.01, 0.045, slot=wood) if style.form.legs != "column" else of(wood, box((-w / 2 + 0.03, -d / 2 + 0.04, 0.0), (w / 2 - 0.03, d / 2 - 0.02, foot + 0.01)))
+    parts = (
+        legs(style, w - 0.01, d - 0.01, foot + 0.01, 0.045, slot=wood)
+        if style.form.legs != "column"
+        else of(wood, box((-w / 2 + 0.03, -d / 2 + 0.04, 0.0), (w / 2 - 0.03, d / 2 - 0.02, foot + 0.01)))
+    )
     parts += of(wood, box((-w / 2 + 0.01, -d / 2 + 0.03, foot), (w / 2 - 0.01, d / 2, h - 0.03)))
-    parts += of("marble" if style.form.ornament > 0.6 else wood, rounded_box((-w / 2, -d / 2, h - 0.032), (w / 2, d / 2, h), 0.008, 1))
+    parts += of(
+        "marble" if style.form.ornament > 0.6 else wood, rounded_box((-w / 2, -d / 2, h - 0.032), (w / 2, d / 2, h), 0.008, 1)
+    )
     middle = foot + 0.5 * (h - foot)
     for low, high in ((foot + 0.015, middle - 0.006), (middle + 0.006, h - 0.045)):
         parts += front(style, -w / 2 + 0.03, w / 2 - 0.03, low, high, -d / 2 + 0.03, slot=wood, handle="centre")
@@ -154,11 +198,16 @@ def kitchen_island(style: Style, rng: np.random.Generator, size: Size) -> Model:
     slot = "painted_wood"
     parts = of(slot, box((-w / 2 + 0.03, -d / 2 + 0.05, 0.08), (w / 2 - 0.03, d / 2 - 0.05, h - 0.035)))
     parts += of("dark_wood", box((-w / 2 + 0.06, -d / 2 + 0.09, 0.0), (w / 2 - 0.06, d / 2 - 0.09, 0.09)))
-    parts += of("wood" if style.family in ("rustic", "scandinavian", "coastal") else "marble", rounded_box((-w / 2, -d / 2, h - 0.04), (w / 2, d / 2, h), 0.01, 1))
+    parts += of(
+        "wood" if style.family in ("rustic", "scandinavian", "coastal") else "marble",
+        rounded_box((-w / 2, -d / 2, h - 0.04), (w / 2, d / 2, h), 0.01, 1),
+    )
     count = max(int(w / 0.5), 2)
     edges = np.linspace(-w / 2 + 0.04, w / 2 - 0.04, count + 1)
-    for k, (x0, x1) in enumerate(zip(edges[:-1], edges[1:])):
-        parts += front(style, x0 + 0.004, x1 - 0.004, 0.1, h - 0.06, -d / 2 + 0.05, slot=slot, handle="right" if k % 2 == 0 else "left")
+    for k, (x0, x1) in enumerate(itertools.pairwise(edges.tolist())):
+        parts += front(
+            style, x0 + 0.004, x1 - 0.004, 0.1, h - 0.06, -d / 2 + 0.05, slot=slot, handle="right" if k % 2 == 0 else "left"
+        )
     return Model(parts, top_of(w, d, h))
 
 
@@ -166,7 +215,11 @@ def altar(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A stone or wooden table with a carved arcade, for halls."""
     w, d, h = size
     slot = "stone" if style.form.ornament > 0.3 else frame_wood(style)
-    parts = of(slot, rounded_box((-w / 2, -d / 2, h - 0.07), (w / 2, d / 2, h), 0.015, 1), box((-w / 2 + 0.03, -d / 2 + 0.03, 0.0), (w / 2 - 0.03, d / 2 - 0.02, 0.09), 0.01))
+    parts = of(
+        slot,
+        rounded_box((-w / 2, -d / 2, h - 0.07), (w / 2, d / 2, h), 0.015, 1),
+        box((-w / 2 + 0.03, -d / 2 + 0.03, 0.0), (w / 2 - 0.03, d / 2 - 0.02, 0.09), 0.01),
+    )
     body = box((-w / 2 + 0.07, -d / 2 + 0.09, 0.08), (w / 2 - 0.07, d / 2 - 0.04, h - 0.06))
     parts += of(slot, body)
     kind = "pointed" if style.form.back == "pointed_arch" else "round"

@@ -9,7 +9,16 @@ from wm.synth.procedural.outlines import circle, rounded
 from wm.synth.procedural.solids import Solid, box, extrude, lathe, rod, shift, turn
 
 
-def inlaid(outline: shapely.Polygon, widths: list[float], slots: list[str], low: float, high: float, axis: str, style: Style, rng: np.random.Generator) -> list[Part]:
+def inlaid(
+    outline: shapely.Polygon,
+    widths: list[float],
+    slots: list[str],
+    low: float,
+    high: float,
+    axis: str,
+    style: Style,
+    rng: np.random.Generator,
+) -> list[Part]:
     """A flat thing of nested bands from the border inward; each band is its own solid, so that no faces share a plane area."""
     parts: list[Part] = []
     current = outline
@@ -29,16 +38,18 @@ def rug(style: Style, rng: np.random.Generator, size: Size) -> Model:
     w, d, h = size
     outline = shapely.box(-w / 2, -d / 2, w / 2, d / 2)
     if style.form.ornament < 0.25 or min(w, d) < 1.0:  # too narrow for a medallion
-        return Model(inlaid(outline, [0.06], ["rug_border", "rug"], 0.0, h, "z", style, rng))
+        return Model(inlaid(outline, [0.06], ["rug_border", "rug"], 0.0, h, "z"))
     edge = min(0.16, 0.1 * min(w, d))
     border, field = outline, outline.buffer(-edge, join_style="mitre")
-    parts = inlaid(border.difference(field), [], ["rug"], 0.0, h, "z", style, rng)
+    parts = of("rug", extrude(border.difference(field), 0.0, h, "z"))
     stripe = field.buffer(-0.0005, join_style="mitre")
     inside = stripe.buffer(-0.05, join_style="mitre")
     parts += of("rug_border", extrude(stripe.difference(inside), 0.0, h, "z"))
     inside = inside.buffer(-0.0005, join_style="mitre")
     a, b = 0.3 * (w - 2 * edge), 0.3 * (d - 2 * edge)
-    medallion = shapely.Polygon([(a, 0), (0.5 * a, 0.5 * b), (0, b), (-0.5 * a, 0.5 * b), (-a, 0), (-0.5 * a, -0.5 * b), (0, -b), (0.5 * a, -0.5 * b)])
+    medallion = shapely.Polygon(
+        [(a, 0), (0.5 * a, 0.5 * b), (0, b), (-0.5 * a, 0.5 * b), (-a, 0), (-0.5 * a, -0.5 * b), (0, -b), (0.5 * a, -0.5 * b)]
+    )
     medallion = medallion.buffer(0.08, quad_segs=3)
     core = medallion.buffer(-0.06)
     tint = pick(rng, style.accents)
@@ -61,7 +72,7 @@ def round_rug(style: Style, rng: np.random.Generator, size: Size) -> Model:
 def bath_mat(style: Style, rng: np.random.Generator, size: Size) -> Model:
     w, d, h = size
     outline = rounded(w, d, 0.04, at=(0.0, -d / 2))
-    return Model(inlaid(outline, [0.05], ["linen", "fabric_accent"], 0.0, h, "z", style, rng))
+    return Model(inlaid(outline, [0.05], ["linen", "fabric_accent"], 0.0, h, "z"))
 
 
 def drape(x0: float, x1: float, y: float, low: float, high: float, folds: int, depth: float, tie: float | None) -> Solid:
@@ -91,7 +102,7 @@ def drape(x0: float, x1: float, y: float, low: float, high: float, folds: int, d
     for k in range(len(levels) - 1):  # level 0 is the top: a face's upper vertices are its ring k, its lower ring k + 1
         faces += [[v - m + k * m if v >= m else v + (k + 1) * m for v in f] for f in side]
     faces += [[v + (len(levels) - 1) * m for v in f] for f in cap]
-    faces += [[v for v in reversed(f)] for f in cap]
+    faces += [f[::-1] for f in cap]
     return Solid(vertices, np.asarray(faces, np.int32))
 
 
@@ -110,16 +121,21 @@ def curtains(style: Style, rng: np.random.Generator, size: Size) -> Model:
         outer, inner = s * (w / 2 - 0.05), s * (w / 2 - 0.05 - panel)
         tied = style.form.ornament > 0.5
         folds = max(int(panel / 0.085), 3)
-        parts += of("curtain", drape(min(outer, inner), max(outer, inner), 0.0, 0.0, z - 0.016, folds, min(0.028, 0.4 * d), outer if tied else None))
+        parts += of(
+            "curtain",
+            drape(min(outer, inner), max(outer, inner), 0.0, 0.0, z - 0.016, folds, min(0.028, 0.4 * d), outer if tied else None),
+        )
         if tied:
             at = outer + (inner - outer) * 0.2
-            parts += of("fabric_accent", box((at - 0.26 * panel, -0.42 * d, 0.285 * z), (at + 0.24 * panel, 0.3 * d, 0.32 * z), 0.012))
+            parts += of(
+                "fabric_accent", box((at - 0.26 * panel, -0.42 * d, 0.285 * z), (at + 0.24 * panel, 0.3 * d, 0.32 * z), 0.012)
+            )
     return Model(parts)
 
 
 def tapestry(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A woven hanging with a border and a device, on a rod, its lower edge in points."""
-    w, d, h = size
+    w, _d, h = size
     parts = of("dark_wood", shift(turn(rod((0, 0, -w / 2), (0, 0, w / 2), 0.016), "y", 90), (0, 0, h - 0.02)))
     n = 3
     low = [(w / 2 - 0.04 - (w - 0.08) * (k / (2 * n)), 0.1 if k % 2 == 0 else 0.0) for k in range(2 * n + 1)]

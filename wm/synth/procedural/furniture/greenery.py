@@ -1,0 +1,150 @@
+"""Plants in pots and cut flowers."""
+
+import math
+
+import numpy as np
+
+from wm.synth.procedural.finish import Style
+from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.synth.procedural.furniture.storage import vessel
+from wm.synth.procedural.solids import Solid, ball, closed, lathe, shift, stretch, tube
+
+
+def leaf(root: tuple[float, float, float], azimuth: float, rise: float, length: float, width: float, droop: float) -> Solid:
+    """A leaf that leaves its root at an angle above the horizon and bends down towards its tip."""
+    c, s = math.cos(azimuth), math.sin(azimuth)
+    points, slope, r, z = [], rise, 0.0, 0.0
+    steps = 5
+    for _ in range(steps + 1):
+        points.append((root[0] + c * r, root[1] + s * r, root[2] + z))
+        r, z = r + length / steps * math.cos(slope), z + length / steps * math.sin(slope)
+        slope -= droop / steps
+    widths = [0.12 * width, 0.6 * width, width, 0.85 * width, 0.45 * width, 0.04 * width]
+    return blade(points, widths, (-s, c))
+
+
+def blade(points: list[tuple[float, float, float]], widths: list[float], across: tuple[float, float]) -> Solid:
+    """A thin closed strip along points, `widths` half-wide across a horizontal direction, folded along its middle."""
+    rings = []
+    for (x, y, z), half in zip(points, widths):
+        ax, ay = across[0] * half, across[1] * half
+        rings += [(x + ax, y + ay, z + 0.25 * half), (x, y, z + 0.0015), (x - ax, y - ay, z + 0.25 * half), (x, y, z - 0.0025)]
+    faces = [(0, 1, 2), (0, 2, 3)]
+    for k in range(len(points) - 1):
+        for j in range(4):
+            a, b, e, f = 4 * k + j, 4 * k + (j + 1) % 4, 4 * k + 4 + (j + 1) % 4, 4 * k + 4 + j
+            faces += [(a, f, e), (a, e, b)]
+    last = 4 * (len(points) - 1)
+    faces += [(last, last + 2, last + 1), (last, last + 3, last + 2)]
+    return closed(np.array(rings), faces)
+
+
+def pot(style: Style, rng: np.random.Generator, radius: float, height: float) -> list[Part]:
+    shapes = {
+        "round": [(0.7, 0.0), (0.98, 0.5), (1.0, 0.75), (0.9, 1.0)],
+        "cone": [(0.68, 0.0), (0.95, 0.86), (1.0, 0.86), (1.0, 1.0)],
+        "box": [(0.95, 0.0), (1.0, 1.0)],
+    }
+    shape = shapes["round" if style.form.softness > 0.7 else ("cone" if style.form.ornament > 0.1 else "box")]
+    slot, color = ("terracotta", None) if rng.random() < 0.5 else ("ceramic", pick(rng, style.accents))
+    wall = [(r * radius, z * height) for r, z in shape]
+    parts = of(slot, lathe([*wall, (0.86 * radius, height), (0.84 * radius, height - 0.03)], 24), color=color)
+    return parts + of(
+        "soil", lathe([(0.87 * radius, height - 0.05), (0.87 * radius, height - 0.018), (0.3 * radius, height - 0.008)], 20)
+    )
+
+
+def plant(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    """A large plant in a pot: broad leaves on stems, a palm, or upright swords."""
+    w, _, h = size
+    base = min(0.34, 0.28 * h)
+    parts = pot(style, rng, min(0.42 * w, 0.2), base)
+    reach = w / 2
+    sort = int(rng.integers(3))
+    solids = []
+    if sort == 0:  # a tree of broad leaves
+        stems = [(0.0, 0.0)] + [(0.05 * math.cos(a), 0.05 * math.sin(a)) for a in (0.5, 2.6, 4.7)]
+        count = 0
+        for x, y in stems:
+            top = base + (h - base) * float(rng.uniform(0.55, 0.85))
+            lean = float(rng.uniform(0.5, 2.2))
+            solids.append(
+                tube(
+                    [(x, y, base - 0.03), (x * lean, y * lean, 0.5 * (base + top)), (2 * x * lean, 2 * y * lean, top)],
+                    [0.01, 0.008, 0.005],
+                    6,
+                    smooth=1,
+                )
+            )
+            for k in range(9):
+                share = 0.25 + 0.75 * (k + 1) / 9
+                root = (2 * x * lean * share, 2 * y * lean * share, base + (top - base) * share)
+                long = min(reach - 0.1, 0.3) * float(rng.uniform(0.7, 1.0))
+                solids.append(
+                    leaf(root, 2.4 * count + float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.5, 1.1)), long, 0.26 * long, 1.4)
+                )
+                count += 1
+    elif sort == 1:  # a palm: fronds from one heart
+        trunk = base + 0.3 * (h - base)
+        parts += of("dark_wood", tube([(0, 0, base - 0.03), (0.02, 0, trunk)], [0.035, 0.025], 8))
+        for k in range(16):
+            long = 1.15 * reach * float(rng.uniform(0.85, 1.05))
+            solids.append(
+                leaf(
+                    (0.02, 0, trunk - 0.01),
+                    2.4 * k,
+                    float(rng.uniform(0.75, 1.35)),
+                    min(long, 0.75 * (h - trunk) + 0.1),
+                    0.05 + 0.03 * reach,
+                    1.9,
+                )
+            )
+    else:  # swords
+        for k in range(15):
+            a, r = 2.4 * k, 0.07 * math.sqrt(k / 15)
+            tall = (h - base) * float(rng.uniform(0.6, 1.0))
+            lean = float(rng.uniform(0.02, 0.2)) * reach
+            points = [
+                (
+                    r * math.cos(a) + lean * t * t * math.cos(a),
+                    r * math.sin(a) + lean * t * t * math.sin(a),
+                    base - 0.02 + tall * t,
+                )
+                for t in np.linspace(0, 1, 5)
+            ]
+            solids.append(blade(points, [0.02, 0.032, 0.034, 0.024, 0.002], (-math.sin(a), math.cos(a))))
+    return Model(parts + of("leaf", *solids))
+
+
+def small_plant(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    """A pot plant for a table."""
+    w, _, h = size
+    base = 0.42 * h
+    parts = pot(style, rng, 0.3 * w, base)
+    solids = [leaf((0, 0, base - 0.01), 2.4 * k, 1.35 - 0.05 * k, 0.5 * w * (0.7 + 0.02 * k), 0.1 * w, 1.3) for k in range(14)]
+    return Model(parts + of("leaf", *solids))
+
+
+def flowers(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    """Cut flowers in a vase."""
+    w, _, h = size
+    neck = 0.5 * h
+    parts = vessel(style, rng, 0.0, 0.0, 0.0, neck)
+    color = pick(rng, style.accents)
+    for k in range(9):
+        a, share = 2.4 * k, 0.25 + 0.75 * (k / 9)
+        tip = (0.4 * w * share * math.cos(a), 0.4 * w * share * math.sin(a), h - 0.045 - 0.16 * h * share)
+        parts += of(
+            "leaf", tube([(0, 0, neck - 0.06), (0.4 * tip[0], 0.4 * tip[1], 0.5 * (neck + tip[2])), tip], 0.003, 5, smooth=1)
+        )
+        bloom = stretch(ball((0, 0, 0), 0.16 * w, 10), (1.0, 1.0, 0.7))
+        parts += of("flower", shift(bloom, tip), color=color)
+        parts += of("leaf", leaf((0.3 * tip[0], 0.3 * tip[1], 0.4 * neck + 0.6 * tip[2]), a + 1.0, 0.6, 0.3 * w, 0.05 * w, 1.0))
+    return Model(parts)
+
+
+KINDS = {
+    "plant": Kind(plant, "floor", (0.55, 0.55, 1.0), (0.75, 0.75, 1.5)),
+    "flowers": Kind(flowers, "object", (0.2, 0.2, 0.34), (0.26, 0.26, 0.44)),
+    "potted plant": Kind(small_plant, "object", (0.22, 0.22, 0.26), (0.3, 0.3, 0.36)),
+}
