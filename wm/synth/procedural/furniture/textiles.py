@@ -16,8 +16,6 @@ def inlaid(
     low: float,
     high: float,
     axis: str,
-    style: Style,
-    rng: np.random.Generator,
 ) -> list[Part]:
     """A flat thing of nested bands from the border inward; each band is its own solid, so that no faces share a plane area."""
     parts: list[Part] = []
