@@ -60,7 +60,8 @@ def decode_depth(data: bytes) -> Float[np.ndarray, "h w"]:
 def encode_arrays(arrays: Mapping[str, np.ndarray]) -> bytes:
     """An uncompressed .npz with its names in order."""
     buffer = io.BytesIO()
-    np.savez(buffer, **{name: arrays[name] for name in sorted(arrays)})
+    in_order: dict[str, Any] = {name: arrays[name] for name in sorted(arrays)}
+    np.savez(buffer, **in_order)
     return buffer.getvalue()
 
 

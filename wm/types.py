@@ -7,11 +7,21 @@ centre at (i + 0.5, j + 0.5); depth is z-depth, not ray length; quaternions are 
 
 import dataclasses
 import enum
+import typing
 from typing import Any
 
 import chex
 import jax
 import numpy as np
+
+T = typing.TypeVar("T")
+
+
+@typing.dataclass_transform(frozen_default=True, eq_default=False)
+def record(cls: type[T]) -> type[T]:
+    """A frozen pytree of arrays without static fields: chex's dataclass, in a form that type checkers understand."""
+    return chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)(cls)
+
 
 OUTSIDE = -1
 """`Mesh.face_room` of a face that belongs to no room (the building's outer skin), and `Mesh.face_object` of structure."""
@@ -44,7 +54,7 @@ class Camera:
     height: int = dataclasses.field(metadata={"static": True})
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@record
 class Mesh:
     """A labelled triangle mesh on the host; normals (right-hand rule) point from the solid into free air."""
 
@@ -55,7 +65,7 @@ class Mesh:
     face_object: np.ndarray  # [f] int32, index into the scene's objects, OUTSIDE for structure
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@record
 class GBuffer:
     """What a camera sees of a mesh, on the host. Where nothing is hit: depth 0, normal 0, face -1, hit False."""
 
@@ -66,7 +76,7 @@ class GBuffer:
     hit: np.ndarray  # [h, w] bool
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@record
 class Gaussians:
     """Anisotropic 3D gaussians on the device. Opacity is sigmoid(opacity_logits); k = (degree + 1)^2 SH coefficients."""
 
@@ -77,7 +87,7 @@ class Gaussians:
     sh: Any  # [n, k, 3]; colour = 0.5 + sum_k sh_k Y_k(direction), sRGB-encoded
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@record
 class Render:
     """What a camera sees of gaussians, on the device."""
 
