@@ -5,6 +5,7 @@ inside a solid (from inside, rays meet the backs of faces: normals point into fr
 """
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
@@ -12,10 +13,10 @@ from jaxtyping import Bool, Float
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 
-from wm.geometry.camera import scale_camera
+from wm.geometry.camera import camera_center, camera_rays, scale_camera
 from wm.geometry.footprint import interior_polygon
 from wm.geometry.plan_records import FloorPlan
-from wm.geometry.raycast import RayScene, cast, cast_rays
+from wm.geometry.raycast import RayScene, cast_rays
 from wm.schema import CameraSettings
 from wm.types import Camera
 
@@ -28,7 +29,7 @@ _SPOTS = 600
 """Grid points a room and height at most: 0.18 m apart in a room of 20 m^2."""
 _SAMPLES = 200
 """Floor points that stand for the room's area when it is asked what a camera sees of it."""
-_THUMBNAIL = 32
+_THUMBNAIL = 24
 """Pixels across of the picture by which a view is judged."""
 
 
@@ -122,12 +123,14 @@ def look_point(air: RoomAir, position: Float[np.ndarray, "2"]) -> Float[np.ndarr
     return seen[np.argmax(np.linalg.norm(seen - position, axis=1))]
 
 
-def openness(scene: RayScene, camera: Camera) -> float:
-    """How far a view sees, metres: its median depth, or three times its 20th percentile if something near fills the picture."""
-    thumbnail = scale_camera(camera, _THUMBNAIL / camera.width)
-    gbuffer = cast(scene, thumbnail)
-    near, median = np.quantile(np.where(gbuffer.hit, gbuffer.depth, 1e3), [0.2, 0.5])
-    return float(min(median, 3.0 * near))
+def openness(scene: RayScene, cameras: Sequence[Camera]) -> Float[np.ndarray, "cameras"]:
+    """How far each view sees, metres: its median depth, or three times its 20th percentile if something near fills it."""
+    thumbnails = [scale_camera(camera, _THUMBNAIL / camera.width) for camera in cameras]
+    directions = [camera_rays(camera) for camera in thumbnails]
+    origins = [np.broadcast_to(camera_center(camera), rays.shape) for camera, rays in zip(thumbnails, directions)]
+    depth = cast_rays(scene, np.concatenate(origins), np.concatenate(directions)).t.reshape(len(thumbnails), -1)
+    near, median = np.quantile(depth, [0.2, 0.5], axis=1, method="lower")  # a miss is inf: do not interpolate
+    return np.minimum(median, 3.0 * near).astype(np.float64)
 
 
 def sphere_directions(count: int) -> Float[np.ndarray, "r 3"]:

@@ -17,7 +17,7 @@ from wm.geometry.camera import camera_center, camera_rotation
 from wm.geometry.footprint import portals
 from wm.geometry.plan_records import FloorPlan
 from wm.geometry.raycast import build_ray_scene, occluded
-from wm.geometry.views import MEDIAN_DEPTH, door_camera, make_view_camera
+from wm.geometry.views import depth_wanted, door_camera, make_view_camera
 from wm.schema import CameraSettings
 from wm.types import Camera, Mesh, View
 
@@ -77,7 +77,7 @@ def _between(air: RoomAir, views: list[View], settings: CameraSettings) -> Itera
                 look = camera_rotation(first)[0]
             for spot in candidates(air, wanted)[:8]:
                 camera = make_view_camera(spot, spot + look, settings)
-                if openness(air.scene, camera) > min(MEDIAN_DEPTH, air.inradius):
+                if openness(air.scene, [camera])[0] > depth_wanted(air):
                     yield camera
                     break
 

@@ -18,7 +18,7 @@ from shapely.geometry.base import BaseGeometry
 from wm.geometry.footprint import Portal, interior_polygon, portals
 from wm.geometry.plan_records import FloorPlan
 from wm.schema import NavigationSettings
-from wm.types import SceneObject
+from wm.types import Mesh, SceneObject
 
 FLAT = 0.1
 """Metres below which a thing on the floor is stepped on: a rug, a threshold."""
@@ -72,6 +72,21 @@ def outlines(things: Iterable[Float[np.ndarray, "v 3"]], low: float, high: float
         if len(below) and vertices[:, 2].max() > low:
             hulls.append(shapely.convex_hull(shapely.multipoints(below[:, :2])))
     return shapely.union_all(hulls)
+
+
+def body_floor(
+    plan: FloorPlan, things: Iterable[Float[np.ndarray, "v 3"]], *, height: float, radius: float
+) -> BaseGeometry:
+    """Where the centre of a body of this height and radius can be among these things."""
+    return walkable_floor(plan).difference(outlines(things, FLAT, height)).buffer(-radius)
+
+
+def object_corners(mesh: Mesh) -> list[Float[np.ndarray, "v 3"]]:
+    """The vertices of each object in a scene's mesh."""
+    used = np.flatnonzero(mesh.face_object >= 0)
+    used = used[np.argsort(mesh.face_object[used], kind="stable")]
+    starts = np.flatnonzero(np.diff(mesh.face_object[used], prepend=-1))
+    return [mesh.vertices[np.unique(faces)] for faces in np.split(mesh.faces[used], starts[1:])] if len(used) else []
 
 
 def cells_inside(

@@ -20,7 +20,7 @@ from shapely.geometry.base import BaseGeometry
 
 from wm.geometry.camera import make_camera
 from wm.geometry.footprint import interior_polygon, portals
-from wm.geometry.navigation import FLAT, cells_inside, outlines, walkable_floor
+from wm.geometry.navigation import body_floor, cells_inside, object_corners, walkable_floor
 from wm.geometry.plan_records import FloorPlan
 from wm.schema import CameraSettings
 from wm.types import Camera, Mesh
@@ -76,11 +76,11 @@ def walkthrough(
 
 def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
     """The widest floor that joins all rooms: around all furniture, else a slimmer walker, else over low furniture too."""
-    things = [_corners(mesh, thing) for thing in np.unique(mesh.face_object[mesh.face_object >= 0])]
+    things = object_corners(mesh)
     tall = [corners for corners in things if corners[:, 2].max() > height - _HEADROOM]
     unreached = []
     for radius, obstacles in ((RADIUS, things), (0.6 * RADIUS, things), (RADIUS, tall), (0.4 * RADIUS, tall)):
-        area = walkable_floor(plan).difference(outlines(obstacles, FLAT, height + _HEADROOM)).buffer(-radius)
+        area = body_floor(plan, obstacles, height=height + _HEADROOM, radius=radius)
         floor = _grid(plan, area, radius)
         if floor is None:
             continue
@@ -90,10 +90,6 @@ def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
             return floor
     names = ", ".join(unreached) or "any room"
     raise ValueError(f"no walk into {names}: a walker {0.8 * RADIUS:.2f} m wide finds doors blocked or no free floor")
-
-
-def _corners(mesh: Mesh, thing: int) -> np.ndarray:
-    return mesh.vertices[np.unique(mesh.faces[mesh.face_object == thing])]
 
 
 def _grid(plan: FloorPlan, area: BaseGeometry, radius: float) -> _Floor | None:
