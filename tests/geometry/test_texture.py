@@ -196,7 +196,7 @@ def test_reading_is_bilinear_and_renormalised(seed):
     assert (np.abs(rgb - (0.5 + points @ slope))[shown] < 0.35 * TEXEL).all()  # half a texel where an edge leaves no neighbour
     assert np.median(np.abs(rgb - (0.5 + points @ slope))[shown]) < 1e-5
 
-    partly = dataclasses.replace(known, color=np.where(weight[:, None] > 0.3, np.float32(0.7), np.float32(99)))
+    partly = dataclasses.replace(known, color=np.where(weight[:, None] > 0.3, np.full(3, 0.7, np.float32), np.float32(99)))
     partly = dataclasses.replace(partly, weight=np.where(weight > 0.3, weight, 0).astype(np.float32))
     rgb, alpha = sample_atlas(partly, gbuffer, view)
     np.testing.assert_allclose(rgb[alpha > 0], 0.7, atol=1e-5)

@@ -2,6 +2,7 @@
 
 from wm.geometry.atlas import build_atlas as build_atlas
 from wm.geometry.atlas import texel_positions as texel_positions
+from wm.geometry.atlas_export import atlas_nodes as atlas_nodes
 from wm.geometry.camera import camera_center as camera_center
 from wm.geometry.camera import camera_quat as camera_quat
 from wm.geometry.camera import camera_rays as camera_rays

@@ -13,6 +13,7 @@ from wm.schema import TextureSettings
 from wm.types import Atlas, Camera, GBuffer
 
 _DEFAULTS = TextureSettings()
+_BLOCK = 1 << 14  # pixels at a time: their arrays stay in the cache, and the allocator reuses them
 
 
 def sample_atlas(
@@ -29,35 +30,45 @@ def sample_atlas(
     Returns:
       rgb [h, w, 3] float32 (0 where nothing is known) and alpha [h, w] float32 in [0, 1] (0 off the atlas).
     """
-    shape = gbuffer.depth.shape
     chart = pixel_charts(atlas, gbuffer).ravel()
-    pixels = np.flatnonzero(chart >= 0)
-    chart = chart[pixels]
-    column, row = _chart_coordinates(atlas, camera, chart, pixels, gbuffer.depth.ravel()[pixels])
-    column -= 0.5
-    row -= 0.5
-    left, top = np.floor(column).astype(np.int64), np.floor(row).astype(np.int64)
-    fx, fy = (column - left).astype(np.float32), (row - top).astype(np.float32)
-    rows, columns = atlas.chart_shape[chart, 0], atlas.chart_shape[chart, 1]
-    start = atlas.chart_start[chart]
+    depth = gbuffer.depth.ravel()
+    rgb = np.zeros((len(chart), 3), np.float32)
+    alpha = np.zeros(len(chart), np.float32)
+    on_atlas = np.flatnonzero(chart >= 0)
+    for first in range(0, len(on_atlas), _BLOCK):
+        pixels = on_atlas[first : first + _BLOCK]
+        column, row = _chart_coordinates(atlas, camera, chart[pixels], pixels, depth[pixels])
+        rgb[pixels], alpha[pixels] = _bilinear(atlas, chart[pixels], column, row, settings.opaque_weight)
+    return rgb.reshape(*gbuffer.depth.shape, 3), alpha.reshape(gbuffer.depth.shape)
 
-    total = np.zeros(len(pixels), np.float32)
-    known = np.zeros(len(pixels), np.float32)
-    color = np.zeros((len(pixels), 3), np.float32)
+
+def _bilinear(
+    atlas: Atlas, chart: np.ndarray, column: np.ndarray, row: np.ndarray, opaque_weight: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Colour [n, 3] and alpha [n] at positions (column, row), in texel indices, of charts [n]."""
+    left, top = np.floor(column), np.floor(row)
+    fx, fy = column - left, row - top
+    left, top = left.astype(np.intp), top.astype(np.intp)
+    rows, columns = atlas.chart_shape.astype(np.intp).T
+    width, start = columns[chart], atlas.chart_start[chart]
+    last_row, last_column = rows[chart] - 1, width - 1
+    sides = ((np.clip(left, 0, last_column), 1 - fx), (np.clip(left + 1, 0, last_column), fx))
+    color = np.zeros((3, len(chart)), np.float32)
+    total = np.zeros(len(chart), np.float32)
+    known = np.zeros(len(chart), np.float32)
     for i, share_y in ((top, 1 - fy), (top + 1, fy)):
-        line = start + np.clip(i, 0, rows - 1) * columns
-        for j, share_x in ((left, 1 - fx), (left + 1, fx)):
-            texel = line + np.clip(j, 0, columns - 1)
-            share = share_x * share_y * atlas.inside[texel]
+        line = start + np.clip(i, 0, last_row) * width
+        for j, share_x in sides:
+            texel = line + j
+            fetched = atlas.color.take(texel, axis=0)
+            share = share_x * share_y * atlas.inside.take(texel)
             total += share
-            share *= np.minimum(atlas.weight[texel] / np.float32(settings.opaque_weight), 1)
+            share *= np.minimum(atlas.weight.take(texel) / np.float32(opaque_weight), 1)
             known += share
-            color += share[:, None] * atlas.color[texel]
-    rgb = np.zeros((shape[0] * shape[1], 3), np.float32)
-    alpha = np.zeros(shape[0] * shape[1], np.float32)
-    rgb[pixels] = color / np.where(known > 0, known, 1)[:, None]
-    alpha[pixels] = np.minimum(known / np.where(total > 0, total, 1), 1)
-    return rgb.reshape(*shape, 3), alpha.reshape(shape)
+            for k in range(3):
+                color[k] += share * fetched[:, k]
+    color /= np.where(known > 0, known, 1)
+    return color.T, np.minimum(known / np.where(total > 0, total, 1), 1)
 
 
 def pixel_charts(atlas: Atlas, gbuffer: GBuffer) -> np.ndarray:
@@ -69,16 +80,16 @@ def pixel_charts(atlas: Atlas, gbuffer: GBuffer) -> np.ndarray:
 def _chart_coordinates(
     atlas: Atlas, camera: Camera, chart: np.ndarray, pixels: np.ndarray, depth: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(column, row) in texels, measured from the chart's origin, of the surface points that pixels see at a depth."""
+    """(column, row) in texel indices (a texel's centre is at its index) of the surface points that pixels see at a depth."""
     R_cam_world, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
     (fx, fy), (cx, cy) = camera.focal, camera.principal
     unproject = np.array([[1 / fx, 0, (0.5 - cx) / fx], [0, 1 / fy, (0.5 - cy) / fy], [0, 0, 1]])  # from pixel indices
     to_eye = -R_cam_world.T @ t - atlas.chart_origin
-    y, x = np.divmod(pixels, camera.width)
+    y, x = (k.astype(np.float32) for k in np.divmod(pixels, camera.width))
     coordinates = []
     for axis in (atlas.chart_u, atlas.chart_v):
-        ray = axis @ R_cam_world.T @ unproject / atlas.texel_size
-        eye = np.einsum("ci,ci->c", to_eye, axis) / atlas.texel_size
+        ray = (axis @ R_cam_world.T @ unproject / atlas.texel_size).astype(np.float32)
+        eye = (np.einsum("ci,ci->c", to_eye, axis) / atlas.texel_size - 0.5).astype(np.float32)
         slope = ray[chart, 0] * x + ray[chart, 1] * y + ray[chart, 2]
         coordinates.append(depth * slope + eye[chart])
     return coordinates[0], coordinates[1]

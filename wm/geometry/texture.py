@@ -11,7 +11,8 @@ Seen: one of the four pixels around the texel's projection shows the texel's own
 deepest of those by more than `occlusion_tolerance`. The paper compares depth alone, with 0.10 m; that lets everything within 10
 cm of a wall leak onto it. Comparing surfaces lets nothing through but the width of an outline.
 
-Tiers of work: per chart in view, the projection is affine in (row, column); per texel in the image, gathers.
+Tiers of work: per view, what each pixel shows; per block of texels of a chart in view (small enough for the cache, and for the
+allocator to reuse), the projection, which is affine in (row, column), and the gathers. Blocks write to texels of their own.
 """
 
 import dataclasses
@@ -27,14 +28,24 @@ from wm.types import Atlas, Camera, GBuffer
 _DEFAULTS = TextureSettings()
 _FADE = 0.1  # share of the image's smaller side over which a view fades in from its border
 _NEAR = 1e-3  # metres: texels closer to the camera's plane are behind it
+_BLOCK = 1 << 14  # texels
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Picture:
+    """One view, ready to be read by texels."""
+
+    camera: Camera
+    shown: np.ndarray  # [h w] int32 the chart each pixel may colour, -1 for none
+    purity: np.ndarray  # [h w] float32
+    pixels: np.ndarray  # [h w, 4] float32 red, green, blue, depth: one gather fetches a row
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class _Projected:
-    """Texels that fall into the image, of all charts in view one after the other."""
+    """Texels of one chart that fall into the image."""
 
     texel: np.ndarray  # [n] int64 index into the atlas
-    chart: np.ndarray  # [n] int32
     x: np.ndarray  # [n] float32 column, in pixel indices (a pixel's centre is at its index)
     y: np.ndarray  # [n] float32 row, likewise
     depth: np.ndarray  # [n] float32 metres
@@ -64,77 +75,94 @@ def accumulate(
     Returns:
       An atlas that shares all but colour and weight with the given one.
     """
+    copied = dataclasses.replace(atlas, color=atlas.color.copy(), weight=atlas.weight.copy())
+    accumulate_in_place(copied, gbuffer, camera, rgb, room, settings, usable=usable)
+    return copied
+
+
+def accumulate_in_place(
+    atlas: Atlas,
+    gbuffer: GBuffer,
+    camera: Camera,
+    rgb: Float[np.ndarray, "h w 3"],
+    room: int,
+    settings: TextureSettings = _DEFAULTS,
+    *,
+    usable: Bool[np.ndarray, "h w"] | None = None,
+) -> None:
+    """As `accumulate`, into the colour and weight of an atlas that the caller owns: a view costs what it sees, not the scene."""
     shown = pixel_charts(atlas, gbuffer)
-    mine = np.append(atlas.chart_room == room, False)
-    wanted = mine[shown] if usable is None else mine[shown] & usable
-    shown = np.where(wanted, shown, np.int32(-1))
-    projected = _project(atlas, camera, np.flatnonzero(np.bincount(shown[shown >= 0], minlength=len(atlas.chart_start))))
-    color, purity, deepest = _fetch(projected, shown, gbuffer.depth, rgb)
-    seen = (purity > 0) & (projected.depth <= deepest + np.float32(settings.occlusion_tolerance))
-    weight = np.where(seen, purity * _view_weight(atlas, camera, projected, settings), 0)
-
-    used = np.flatnonzero(weight > 0)
-    texel, added = projected.texel[used], weight[used]
-    before = atlas.weight[texel]
-    after = before + added
-    new_color, new_weight = atlas.color.copy(), atlas.weight.copy()
-    new_color[texel] += (color[used] - atlas.color[texel]) * (added / after)[:, None]
-    new_weight[texel] = after
-    return dataclasses.replace(atlas, color=new_color, weight=new_weight)
+    mine = np.append(atlas.chart_room == room, False)[shown]
+    shown = np.where(mine if usable is None else mine & usable, shown, np.int32(-1))
+    picture = _Picture(
+        camera=camera,
+        shown=shown.ravel(),
+        purity=_purity(shown).ravel(),
+        pixels=np.dstack([rgb, gbuffer.depth]).astype(np.float32, copy=False).reshape(-1, 4),
+    )
+    for chart in np.flatnonzero(np.bincount(shown[shown >= 0], minlength=len(atlas.chart_start))):
+        rows, columns = (int(k) for k in atlas.chart_shape[chart])
+        step = max(1, _BLOCK // columns)
+        for first in range(0, rows, step):
+            _add(atlas, picture, int(chart), slice(first, min(first + step, rows)), settings)
 
 
-def _project(atlas: Atlas, camera: Camera, charts: np.ndarray) -> _Projected:
-    """Texels of some charts inside the image: (x, y, 1) depth = K (R p + t) is affine in a chart's (row, column)."""
+def _add(atlas: Atlas, picture: _Picture, chart: int, rows: slice, settings: TextureSettings) -> None:
+    """Update the texels of some rows of a chart: the running mean, weight += w and colour += (c - colour) w / weight."""
+    projected = _project(atlas, picture.camera, chart, rows)
+    color, purity, deepest = _fetch(projected, picture, chart)
+    seen = projected.depth <= deepest + np.float32(settings.occlusion_tolerance)
+    added = seen * purity * _view_weight(atlas, picture.camera, chart, projected, settings)
+    used = np.flatnonzero(added > 0)
+    texel, added = projected.texel[used], added[used]
+    after = atlas.weight[texel] + added
+    before = atlas.color[texel]
+    atlas.color[texel] = before + (color.T[used] - before) * (added / after)[:, None]
+    atlas.weight[texel] = after
+
+
+def _project(atlas: Atlas, camera: Camera, chart: int, rows: slice) -> _Projected:
+    """Texels of some rows of a chart inside the image: (x, y, 1) depth = K (R p + t) is affine in (row, column)."""
     K = np.array([[camera.focal[0], 0, camera.principal[0]], [0, camera.focal[1], camera.principal[1]], [0, 0, 1]])
     R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
-    parts = []
-    for chart in charts:
-        inside = chart_image(atlas, int(chart), atlas.inside)
-        rows, columns = inside.shape
-        base = K @ (R @ atlas.chart_origin[chart] + t)
-        along_u = np.outer(K @ R @ atlas.chart_u[chart], (np.arange(columns) + 0.5) * atlas.texel_size)
-        along_v = np.outer(K @ R @ atlas.chart_v[chart], (np.arange(rows) + 0.5) * atlas.texel_size) + base[:, None]
-        along_u, along_v = along_u.astype(np.float32)[:, None, :], along_v.astype(np.float32)[:, :, None]
-        depth = along_v[2] + along_u[2]
-        ahead = inside & (depth > _NEAR)
-        inverse = 1 / np.where(ahead, depth, 1)
-        x = (along_v[0] + along_u[0]) * inverse
-        y = (along_v[1] + along_u[1]) * inverse
-        kept = np.flatnonzero(ahead & (x > 0) & (x < camera.width) & (y > 0) & (y < camera.height))
-        texel = atlas.chart_start[chart] + kept
-        parts.append((texel, np.full(len(kept), chart, np.int32), *(a.ravel()[kept] for a in (x - 0.5, y - 0.5, depth))))
-    empty = (np.zeros(0, np.int64), np.zeros(0, np.int32), *[np.zeros(0, np.float32)] * 3)
-    texel, chart, x, y, depth = (np.concatenate(part) for part in zip(empty, *parts))
-    return _Projected(texel=texel, chart=chart, x=x, y=y, depth=depth)
+    inside = chart_image(atlas, chart, atlas.inside)[rows]
+    columns = inside.shape[1]
+    base = K @ (R @ atlas.chart_origin[chart] + t)
+    along_u = np.outer(K @ R @ atlas.chart_u[chart], (np.arange(columns) + 0.5) * atlas.texel_size)
+    along_v = np.outer(K @ R @ atlas.chart_v[chart], (np.arange(rows.start, rows.stop) + 0.5) * atlas.texel_size) + base[:, None]
+    along_u, along_v = along_u.astype(np.float32)[:, None, :], along_v.astype(np.float32)[:, :, None]
+    depth = along_v[2] + along_u[2]
+    ahead = inside & (depth > _NEAR)
+    inverse = 1 / np.where(ahead, depth, 1)
+    x = (along_v[0] + along_u[0]) * inverse
+    y = (along_v[1] + along_u[1]) * inverse
+    kept = np.flatnonzero(ahead & (x > 0) & (x < camera.width) & (y > 0) & (y < camera.height))
+    texel = atlas.chart_start[chart] + rows.start * columns + kept
+    return _Projected(texel=texel, x=x.ravel()[kept] - 0.5, y=y.ravel()[kept] - 0.5, depth=depth.ravel()[kept])
 
 
-def _fetch(
-    projected: _Projected, shown: np.ndarray, depth: np.ndarray, rgb: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Bilinear colour [n, 3] from the pixels that show each texel's chart, their purity [n] and their largest depth [n]."""
-    height, width = shown.shape
-    pure = _purity(shown).ravel()
-    planes = np.ascontiguousarray(rgb.reshape(-1, 3).T, np.float32)
-    shown, depth = shown.ravel(), depth.ravel()
+def _fetch(projected: _Projected, picture: _Picture, chart: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Bilinear colour [3, n] from the pixels that show the chart, their purity [n] and their largest depth [n]."""
+    height, width = picture.camera.height, picture.camera.width
     left, top = np.floor(projected.x), np.floor(projected.y)
     fx, fy = projected.x - left, projected.y - top
-    left, top = left.astype(np.int32), top.astype(np.int32)
-
+    left, top = left.astype(np.intp), top.astype(np.intp)
+    columns = ((np.maximum(left, 0), 1 - fx), (np.minimum(left + 1, width - 1), fx))
+    lines = ((np.maximum(top, 0) * width, 1 - fy), (np.minimum(top + 1, height - 1) * width, fy))
     color = np.zeros((3, len(left)), np.float32)
     total = np.zeros(len(left), np.float32)
     deepest = np.zeros(len(left), np.float32)
-    for i, share_y in ((top, 1 - fy), (top + 1, fy)):
-        line = np.clip(i, 0, height - 1) * width
-        for j, share_x in ((left, 1 - fx), (left + 1, fx)):
-            pixel = line + np.clip(j, 0, width - 1)
-            own = shown[pixel] == projected.chart
-            share = share_x * share_y * own * pure[pixel]
+    for line, share_y in lines:
+        for column, share_x in columns:
+            pixel = line + column
+            fetched = picture.pixels.take(pixel, axis=0)
+            own = picture.shown.take(pixel) == chart
+            share = share_x * share_y * own * picture.purity.take(pixel)
             total += share
-            for plane, out in zip(planes, color):
-                out += share * plane[pixel]
-            np.maximum(deepest, depth[pixel], out=deepest, where=own)
-    color /= np.where(total > 0, total, 1)
-    return color.T, total, deepest
+            for k in range(3):
+                color[k] += share * fetched[:, k]
+            np.maximum(deepest, fetched[:, 3] * own, out=deepest)
+    return color / np.where(total > 0, total, 1), total, deepest
 
 
 def _purity(shown: np.ndarray) -> np.ndarray:
@@ -148,15 +176,17 @@ def _purity(shown: np.ndarray) -> np.ndarray:
     return (same / np.float32(9)) ** 2
 
 
-def _view_weight(atlas: Atlas, camera: Camera, projected: _Projected, settings: TextureSettings) -> np.ndarray:
+def _view_weight(
+    atlas: Atlas, camera: Camera, chart: int, projected: _Projected, settings: TextureSettings
+) -> np.ndarray:
     """[n] float32: facing * resolution * fade."""
     R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
-    height_above = np.einsum("ci,ci->c", -R.T @ t - atlas.chart_origin, atlas.chart_normal).astype(np.float32)
+    above = np.float32((-R.T @ t - atlas.chart_origin[chart]) @ atlas.chart_normal[chart])  # metres from plane to eye
+    (fx, fy), (cx, cy) = camera.focal.astype(np.float32), camera.principal.astype(np.float32)
     x, y = projected.x + np.float32(0.5), projected.y + np.float32(0.5)
-    tangent = ((x - camera.principal[0]) / camera.focal[0]) ** 2 + ((y - camera.principal[1]) / camera.focal[1]) ** 2
-    cosine = height_above[projected.chart] / (projected.depth * np.sqrt(1 + tangent))
-    facing = np.clip((cosine - settings.min_facing) / (1 - settings.min_facing), 0, 1)
-    resolution = np.minimum(1, atlas.texel_size * camera.focal.min() / projected.depth)
+    cosine = above / (projected.depth * np.sqrt(1 + ((x - cx) / fx) ** 2 + ((y - cy) / fy) ** 2))
+    facing = np.clip((cosine - np.float32(settings.min_facing)) / np.float32(1 - settings.min_facing), 0, 1)
+    resolution = np.minimum(1, np.float32(atlas.texel_size) * min(fx, fy) / projected.depth)
     border = np.minimum(np.minimum(x, camera.width - x), np.minimum(y, camera.height - y))
-    fade = np.minimum(1, border / (_FADE * min(camera.width, camera.height)))
-    return (facing * resolution * fade).astype(np.float32)
+    fade = np.minimum(1, border / np.float32(_FADE * min(camera.width, camera.height)))
+    return facing * resolution * fade

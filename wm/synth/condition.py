@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from wm.geometry.camera import camera_rays
+from wm.geometry.camera import ray_basis
 from wm.geometry.mesh import BOX_COLOR
 from wm.geometry.sampling import sample_atlas
 from wm.schema import ConditionConfig, TextureSettings
@@ -58,7 +58,7 @@ def make_condition(
         rgb += known[..., None] * (seen - rgb)
     if settings.objects != "none":
         shown = gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE)
-        light = _headlight(gbuffer, camera)[shown][:, None]
+        light = _headlight(gbuffer, camera, shown)[:, None]
         if settings.objects == "textured":
             rgb[shown] = light * _face_colors(mesh, objects)[gbuffer.face[shown]]
             known[shown] = 1.0
@@ -76,10 +76,12 @@ def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.n
     return np.where(gbuffer.hit, grey, 0).astype(np.float32)
 
 
-def _headlight(gbuffer: GBuffer, camera: Camera) -> np.ndarray:
-    rays = camera_rays(camera).reshape(gbuffer.normal.shape).astype(np.float32)
-    rays /= np.linalg.norm(rays, axis=-1, keepdims=True)
-    facing = np.abs(np.einsum("hwi,hwi->hw", gbuffer.normal, rays))
+def _headlight(gbuffer: GBuffer, camera: Camera, shown: np.ndarray) -> np.ndarray:
+    """[n] float32 brightness of the pixels of a mask under a lamp at the camera."""
+    columns, rows = ray_basis(camera)
+    y, x = np.nonzero(shown)
+    rays = (columns[x] + rows[y]).astype(np.float32)
+    facing = np.abs(np.einsum("ni,ni->n", gbuffer.normal[shown], rays)) / np.linalg.norm(rays, axis=1)
     return np.float32(_AMBIENT) + np.float32(1 - _AMBIENT) * facing
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from wm.geometry.atlas import build_atlas
 from wm.geometry.camera import camera_quat, scale_camera
 from wm.geometry.raycast import RayScene, cast
-from wm.geometry.texture import accumulate
+from wm.geometry.texture import accumulate_in_place
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
 from wm.synth.agreement import agreement
 from wm.synth.backends import DepthBackend, ImageBackend, ImageRequest
@@ -136,9 +136,8 @@ def paint_scene(
                 painted = dataclasses.replace(painted, reference=None if reference is None else views[reference].name)
                 store(view, painted)
             images[index] = painted.rgb
-            atlas = accumulate(
-                atlas, gbuffer, view.camera, _as_float(painted.rgb), room, settings.texture, usable=painted.mask
-            )
+            rgb = _as_float(painted.rgb)
+            accumulate_in_place(atlas, gbuffer, view.camera, rgb, room, settings.texture, usable=painted.mask)
             done.append(index)
             if painted.accepted:
                 attempts.append(painted.attempts)
