@@ -58,6 +58,7 @@ def fill(job: Job, kind: str) -> None:
     """Pieces along the walls until the room holds enough."""
     absent = ABSENT.get(job.style.family, frozenset())
     special = [piece for piece, rooms in FLAVOUR.get(job.style.family, ()) if kind in rooms.split()]
+    special = special if job.layout.site.polygon.area > 9 else special[:1]
     usual = [piece for piece in AT_WALL[kind] if piece not in absent]
     if kind not in ("library", "bathroom", "bedroom"):
         head = usual[:1]

@@ -5,20 +5,22 @@ import math
 import numpy as np
 import shapely
 
+from wm.synth.procedural.solids import Real
 
-def rectangle(width: float, height: float, *, at: tuple[float, float] = (0.0, 0.0)) -> shapely.Polygon:
+
+def rectangle(width: Real, height: Real, *, at: tuple[Real, Real] = (0.0, 0.0)) -> shapely.Polygon:
     """Centred across, standing on `at`."""
     x, z = at
     return shapely.box(x - width / 2, z, x + width / 2, z + height)
 
 
-def rounded(width: float, height: float, radius: float, *, at: tuple[float, float] = (0.0, 0.0)) -> shapely.Polygon:
+def rounded(width: Real, height: Real, radius: Real, *, at: tuple[Real, Real] = (0.0, 0.0)) -> shapely.Polygon:
     """A rectangle with round corners, standing on `at`."""
     radius = min(radius, 0.49 * width, 0.49 * height)
     return rectangle(width, height, at=at).buffer(-radius).buffer(radius, quad_segs=5)
 
 
-def arch(kind: str, width: float, height: float, *, at: tuple[float, float] = (0.0, 0.0), steps: int = 7) -> shapely.Polygon:
+def arch(kind: str, width: Real, height: Real, *, at: tuple[Real, Real] = (0.0, 0.0), steps: int = 7) -> shapely.Polygon:
     """A panel with a top: "pointed" (two arcs that meet), "round", "wave" (a lazy S) or anything else for straight.
 
     The springing lies as high as leaves the arch its natural rise, at most 0.6 of the height.
@@ -44,12 +46,12 @@ def arch(kind: str, width: float, height: float, *, at: tuple[float, float] = (0
     return panel if isinstance(panel, shapely.Polygon) else rectangle(width, height, at=at)
 
 
-def frame(outline: shapely.Polygon, border: float) -> shapely.Polygon:
+def frame(outline: shapely.Polygon, border: Real) -> shapely.Polygon:
     """The outline's border of a given width: what is left when its inside is cut out."""
     cut = outline.difference(outline.buffer(-border, join_style="mitre"))
     return cut if isinstance(cut, shapely.Polygon) else outline
 
 
-def circle(radius: float, *, at: tuple[float, float] = (0.0, 0.0), segments: int = 24) -> shapely.Polygon:
+def circle(radius: Real, *, at: tuple[Real, Real] = (0.0, 0.0), segments: int = 24) -> shapely.Polygon:
     t = np.arange(segments) * 2 * math.pi / segments
     return shapely.Polygon(np.stack([at[0] + radius * np.cos(t), at[1] + radius * np.sin(t)], -1))

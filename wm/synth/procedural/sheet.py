@@ -57,13 +57,25 @@ class Sheet:
 
 
 def finish(
-    material: str, *codes: str, scale: float = 0.1, contrast: float = 1.0, roughness: float = 0.7, wear: float = 0.2
+    material: str,
+    *codes: str,
+    scale: float | int = 0.1,
+    contrast: float | int = 1.0,
+    roughness: float | int = 0.7,
+    wear: float | int = 0.2,
 ) -> Finish:
     return Finish(material, tuple(rgb(c) for c in codes), scale, contrast, roughness, wear)
 
 
 def light(
-    sun: str, strength: float, elevation: float, azimuth: float, sky: str, sky_strength: float, lamp: str, lamps: float
+    sun: str,
+    strength: float | int,
+    elevation: float | int,
+    azimuth: float | int,
+    sky: str,
+    sky_strength: float | int,
+    lamp: str,
+    lamps: float | int,
 ) -> Light:
     """A Light from codes and degrees."""
     return Light(rgb(sun), strength, math.radians(elevation), math.radians(azimuth), rgb(sky), sky_strength, rgb(lamp), lamps)

@@ -13,7 +13,10 @@ import shapely
 from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
-Point3 = tuple[float, float, float]
+Real = float | int
+"""A number as a person writes it: run-time checks would refuse 0 where 0.0 is meant."""
+
+Point3 = tuple[Real, Real, Real]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -40,7 +43,7 @@ def shift(solid: Solid, offset: Point3) -> Solid:
     return Solid(solid.vertices + np.asarray(offset, np.float64), solid.faces)
 
 
-def turn(solid: Solid, axis: str, degrees: float, about: Point3 = (0.0, 0.0, 0.0)) -> Solid:
+def turn(solid: Solid, axis: str, degrees: Real, about: Point3 = (0.0, 0.0, 0.0)) -> Solid:
     """Turned counter-clockwise about an axis ("x", "y" or "z") through a point."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     i, j = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
@@ -55,7 +58,7 @@ def stretch(solid: Solid, factors: Point3) -> Solid:
     return closed(solid.vertices * np.asarray(factors, np.float64), solid.faces)
 
 
-def box(lo: Point3, hi: Point3, bevel: float = 0.004) -> Solid:
+def box(lo: Point3, hi: Point3, bevel: Real = 0.004) -> Solid:
     """A box between two corners with its edges chamfered by `bevel` (44 triangles; 12 without a bevel)."""
     low, high = np.minimum(lo, hi).astype(np.float64), np.maximum(lo, hi).astype(np.float64)
     half, centre = (high - low) / 2, (high + low) / 2
@@ -94,7 +97,7 @@ def _triangles(quads: Sequence[Sequence[int]]) -> list[Sequence[int]]:
     return [tri for a, b, c, d in quads for tri in ((a, b, c), (a, c, d))]
 
 
-def rounded_box(lo: Point3, hi: Point3, radius: float, segments: int = 2) -> Solid:
+def rounded_box(lo: Point3, hi: Point3, radius: Real, segments: int = 2) -> Solid:
     """A box with edges and corners rounded: 12 (2 segments + 1)^2 triangles."""
     low, high = np.minimum(lo, hi).astype(np.float64), np.maximum(lo, hi).astype(np.float64)
     half, centre = (high - low) / 2, (high + low) / 2
@@ -122,7 +125,7 @@ def rounded_box(lo: Point3, hi: Point3, radius: float, segments: int = 2) -> Sol
     return closed(centre + side[key] * (half - radius) + radius * direction, faces)
 
 
-def puff(lo: Point3, hi: Point3, *, square: float = 0.35, flat: float = 0.8, around: int = 20, along: int = 8) -> Solid:
+def puff(lo: Point3, hi: Point3, *, square: Real = 0.35, flat: Real = 0.8, around: int = 20, along: int = 8) -> Solid:
     """A cushion: a superellipsoid between two corners, squarish seen along z, thin at its seam.
 
     Args:
@@ -134,7 +137,7 @@ def puff(lo: Point3, hi: Point3, *, square: float = 0.35, flat: float = 0.8, aro
     u = np.linspace(-np.pi / 2, np.pi / 2, along + 1)[1:-1]
     v = (np.arange(around) + 0.5) * 2 * np.pi / around
 
-    def power(x: np.ndarray, e: float) -> np.ndarray:
+    def power(x: np.ndarray, e: Real) -> np.ndarray:
         return np.sign(x) * np.abs(x) ** e
 
     ring = np.stack([power(np.cos(v), square), power(np.sin(v), square)], -1)
@@ -161,7 +164,7 @@ def _stack_of_rings(vertices: np.ndarray, rings: int, around: int, *, poles: boo
     return closed(vertices, np.concatenate(faces))
 
 
-def lathe(profile: Sequence[tuple[float, float]], segments: int = 24, *, at: Point3 = (0.0, 0.0, 0.0), smooth: int = 0) -> Solid:
+def lathe(profile: Sequence[tuple[Real, Real]], segments: int = 24, *, at: Point3 = (0.0, 0.0, 0.0), smooth: int = 0) -> Solid:
     """A turned shape about the vertical through `at`.
 
     Args:
@@ -180,7 +183,7 @@ def lathe(profile: Sequence[tuple[float, float]], segments: int = 24, *, at: Poi
     return shift(_stack_of_rings(np.concatenate([ends[:1], *rings, ends[1:]]), len(inner), segments, poles=True), at)
 
 
-def shell(profile: Sequence[tuple[float, float]], thickness: float, segments: int = 28, *, at: Point3 = (0.0, 0.0, 0.0)) -> Solid:
+def shell(profile: Sequence[tuple[Real, Real]], thickness: Real, segments: int = 28, *, at: Point3 = (0.0, 0.0, 0.0)) -> Solid:
     """A turned wall that is open above and below: the (radius, height) profile is its outside, `thickness` lies inside."""
     loop = [*profile, *((r - thickness, h) for r, h in reversed(profile))]
     angle = np.arange(segments) * 2 * np.pi / segments
@@ -208,10 +211,10 @@ def catmull_rom(points: Float[np.ndarray, "k d"], between: int) -> Float[np.ndar
 
 def tube(
     path: Sequence[Point3] | np.ndarray,
-    radius: float | Sequence[float],
+    radius: Real | Sequence[float],
     segments: int = 8,
     *,
-    flatten: float = 1.0,
+    flatten: Real = 1.0,
     smooth: int = 0,
 ) -> Solid:
     """A rod along a path, closed at its ends.
@@ -240,7 +243,7 @@ def tube(
     return _stack_of_rings(np.concatenate([points[:1], *rings, points[-1:]]), len(points), segments, poles=True)
 
 
-def extrude(outline: BaseGeometry | Sequence[tuple[float, float]], lo: float, hi: float, axis: str = "y") -> Solid:
+def extrude(outline: BaseGeometry | Sequence[tuple[Real, Real]], lo: Real, hi: Real, axis: str = "y") -> Solid:
     """A prism: an outline (with holes, if a polygon has them) carried from `lo` to `hi` along an axis.
 
     The outline lies in (x, z) for axis "y", in (y, z) for "x" and in (x, y) for "z".
@@ -273,12 +276,12 @@ def extrude(outline: BaseGeometry | Sequence[tuple[float, float]], lo: float, hi
     return closed(np.concatenate(planes)[:, order], faces)
 
 
-def rod(start: Point3, end: Point3, radius: float, segments: int = 8) -> Solid:
+def rod(start: Point3, end: Point3, radius: Real, segments: int = 8) -> Solid:
     """A straight round bar."""
     return tube([start, end], radius, segments)
 
 
-def ball(centre: Point3, radius: float, segments: int = 12) -> Solid:
+def ball(centre: Point3, radius: Real, segments: int = 12) -> Solid:
     """A sphere."""
     t = np.linspace(-np.pi / 2, np.pi / 2, segments // 2 + 1)
     profile = [(max(radius * math.cos(a), 0.0), radius * math.sin(a)) for a in t]

@@ -7,7 +7,21 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.common import front
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of
 from wm.synth.procedural.outlines import rounded
-from wm.synth.procedural.solids import Solid, ball, box, closed, extrude, lathe, rod, rounded_box, shift, stretch, tube, turn
+from wm.synth.procedural.solids import (
+    Real,
+    Solid,
+    ball,
+    box,
+    closed,
+    extrude,
+    lathe,
+    rod,
+    rounded_box,
+    shift,
+    stretch,
+    tube,
+    turn,
+)
 
 WHITE = (0.93, 0.92, 0.9)
 """Sanitary ware is white in every style."""
@@ -39,7 +53,7 @@ def vessel_of(rings: list[tuple[shapely.Polygon, float]]) -> Solid:
     return closed(np.concatenate([first[None], *stack, last[None]]), np.concatenate(faces))
 
 
-def tap(x: float, y: float, z: float, reach: float, height: float, metal: str) -> list[Part]:
+def tap(x: Real, y: Real, z: Real, reach: Real, height: Real, metal: str) -> list[Part]:
     """A swan-neck tap with two handles, reaching towards -y."""
     neck = [
         (x, y, z),

@@ -6,10 +6,10 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.common import COLUMN, TURNED, finial, frame_wood, legs, tracery
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.outlines import arch, frame, rectangle, rounded
-from wm.synth.procedural.solids import box, extrude, lathe, puff, rod, rounded_box, turn
+from wm.synth.procedural.solids import Real, box, extrude, lathe, puff, rod, rounded_box, turn
 
 
-def headboard(style: Style, w: float, y: float, low: float, high: float, *, wood: str) -> list[Part]:
+def headboard(style: Style, w: Real, y: Real, low: Real, high: Real, *, wood: str) -> list[Part]:
     """The board behind the pillows, between the heights low and high, in front of the plane y."""
     kind = style.form.back
     tall = high - low
@@ -109,7 +109,7 @@ def bed(style: Style, rng: np.random.Generator, size: Size) -> Model:
     return Model(parts)
 
 
-def footboard(style: Style, w: float, y: float, base: float, *, wood: str) -> list[Part]:
+def footboard(style: Style, w: Real, y: Real, base: Real, *, wood: str) -> list[Part]:
     """A low board and two posts with finials at the foot."""
     top = base + 0.36
     parts = of(wood, box((-w / 2 + 0.03, y - 0.045, base - 0.08), (w / 2 - 0.03, y - 0.012, top)))

@@ -6,7 +6,7 @@ import shapely
 from wm.synth.procedural.finish import Rgb, Style
 from wm.synth.procedural.furniture.piece import Part, of
 from wm.synth.procedural.outlines import arch, rectangle
-from wm.synth.procedural.solids import Solid, ball, box, extrude, lathe, rod, tube
+from wm.synth.procedural.solids import Real, Solid, ball, box, extrude, lathe, rod, tube
 
 TURNED = [
     (0.55, 0.0),
@@ -44,9 +44,7 @@ COLUMN = [
 """Profile of a small column with base and capital."""
 
 
-def leg(
-    kind: str, x: float, y: float, height: float, thickness: float, *, outward: tuple[float, float] = (0.0, 0.0)
-) -> list[Solid]:
+def leg(kind: str, x: Real, y: Real, height: Real, thickness: Real, *, outward: tuple[Real, Real] = (0.0, 0.0)) -> list[Solid]:
     """One leg below (x, y, height); `outward` points away from the piece's centre, for splayed and curved legs."""
     ox, oy = outward
     r = thickness / 2
@@ -78,7 +76,7 @@ def leg(
 
 
 def legs(
-    style: Style, width: float, depth: float, height: float, thickness: float, *, slot: str, kind: str | None = None
+    style: Style, width: Real, depth: Real, height: Real, thickness: Real, *, slot: str, kind: str | None = None
 ) -> list[Part]:
     """Four legs under the corners of a footprint that they do not leave."""
     name = kind or style.form.legs
@@ -90,7 +88,7 @@ def legs(
     return of("dark_metal" if name == "hairpin" else slot, *solids)
 
 
-def scaled(color: Rgb, factor: float) -> Rgb:
+def scaled(color: Rgb, factor: Real) -> Rgb:
     return color[0] * factor, color[1] * factor, color[2] * factor
 
 
@@ -103,7 +101,7 @@ def frame_wood(style: Style) -> str:
     return "dark_wood" if style.form.legs in ("turned", "cabriole") else "wood"
 
 
-def front(style: Style, x0: float, x1: float, z0: float, z1: float, y: float, *, slot: str, handle: str = "right") -> list[Part]:
+def front(style: Style, x0: Real, x1: Real, z0: Real, z1: Real, y: Real, *, slot: str, handle: str = "right") -> list[Part]:
     """One door or drawer front before the plane y (it stands 2 cm proud towards -y), shaped by the style's panels.
 
     Args:
@@ -158,7 +156,7 @@ def front(style: Style, x0: float, x1: float, z0: float, z1: float, y: float, *,
     )
 
 
-def tracery(width: float, height: float, border: float, *, at: tuple[float, float], lancets: int = 2) -> shapely.Polygon:
+def tracery(width: Real, height: Real, border: Real, *, at: tuple[Real, Real], lancets: int = 2) -> shapely.Polygon:
     """A gothic window's stonework: a pointed frame with lancets and a round eye between them cut out."""
     x, z = at
     outer = arch("pointed", width, height, at=at)
@@ -175,13 +173,13 @@ def tracery(width: float, height: float, border: float, *, at: tuple[float, floa
     return solid if isinstance(solid, shapely.Polygon) else outer
 
 
-def finial(x: float, y: float, z: float, size: float) -> Solid:
+def finial(x: Real, y: Real, z: Real, size: Real) -> Solid:
     """A small turned knob that ends a post."""
     profile = [(0.0, 0.0), (0.45, 0.0), (0.3, 0.2), (0.5, 0.45), (0.42, 0.65), (0.15, 0.8), (0.22, 0.88), (0.0, 1.0)]
     return lathe([(size * r, size * h) for r, h in profile], 10, at=(x, y, z), smooth=1)
 
 
-def candle(x: float, y: float, z: float, height: float, *, radius: float = 0.011) -> list[Part]:
+def candle(x: Real, y: Real, z: Real, height: Real, *, radius: Real = 0.011) -> list[Part]:
     """A lit candle standing on (x, y, z)."""
     flame = [(0.0, 0.0), (0.55, 0.25), (0.6, 0.4), (0.25, 0.75), (0.0, 1.0)]
     tall = 0.035 + radius
@@ -191,6 +189,6 @@ def candle(x: float, y: float, z: float, height: float, *, radius: float = 0.011
     ]
 
 
-def spread(rng: np.random.Generator, value: float, share: float = 0.1) -> float:
+def spread(rng: np.random.Generator, value: Real, share: Real = 0.1) -> float:
     """The value times 1 +- share, uniformly."""
     return value * float(rng.uniform(1 - share, 1 + share))

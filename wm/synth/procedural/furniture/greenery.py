@@ -7,10 +7,10 @@ import numpy as np
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.furniture.storage import vessel
-from wm.synth.procedural.solids import Solid, ball, closed, lathe, shift, stretch, tube
+from wm.synth.procedural.solids import Point3, Real, Solid, ball, closed, lathe, shift, stretch, tube
 
 
-def leaf(root: tuple[float, float, float], azimuth: float, rise: float, length: float, width: float, droop: float) -> Solid:
+def leaf(root: Point3, azimuth: Real, rise: Real, length: Real, width: Real, droop: Real) -> Solid:
     """A leaf that leaves its root at an angle above the horizon and bends down towards its tip."""
     c, s = math.cos(azimuth), math.sin(azimuth)
     points, slope, r, z = [], rise, 0.0, 0.0
@@ -23,7 +23,7 @@ def leaf(root: tuple[float, float, float], azimuth: float, rise: float, length: 
     return blade(points, widths, (-s, c))
 
 
-def blade(points: list[tuple[float, float, float]], widths: list[float], across: tuple[float, float]) -> Solid:
+def blade(points: list[Point3], widths: list[float], across: tuple[Real, Real]) -> Solid:
     """A thin closed strip along points, `widths` half-wide across a horizontal direction, folded along its middle."""
     rings = []
     for (x, y, z), half in zip(points, widths):
@@ -39,7 +39,7 @@ def blade(points: list[tuple[float, float, float]], widths: list[float], across:
     return closed(np.array(rings), faces)
 
 
-def pot(style: Style, rng: np.random.Generator, radius: float, height: float) -> list[Part]:
+def pot(style: Style, rng: np.random.Generator, radius: Real, height: Real) -> list[Part]:
     shapes = {
         "round": [(0.7, 0.0), (0.98, 0.5), (1.0, 0.75), (0.9, 1.0)],
         "cone": [(0.68, 0.0), (0.95, 0.86), (1.0, 0.86), (1.0, 1.0)],

@@ -8,10 +8,10 @@ from wm.synth.procedural.finish import PERIOD, Style
 from wm.synth.procedural.furniture.common import front
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, Top, of
 from wm.synth.procedural.outlines import rectangle, rounded
-from wm.synth.procedural.solids import box, extrude, lathe, rod, rounded_box, shift, tube, turn
+from wm.synth.procedural.solids import Real, box, extrude, lathe, rod, rounded_box, shift, tube, turn
 
 
-def base_units(style: Style, w: float, d: float, h: float, *, drawers: bool, basin: float = 0.0) -> list[Part]:
+def base_units(style: Style, w: Real, d: Real, h: Real, *, drawers: bool, basin: Real = 0.0) -> list[Part]:
     """Cupboards below a worktop that is left for the caller; open above to a depth of `basin`."""
     slot = "wood" if style.family in ("gothic", "rustic", "industrial", "japanese") else "painted_wood"
     face = -d / 2 + 0.045

@@ -8,10 +8,10 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.common import COLUMN, TURNED, candle
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.outlines import arch
-from wm.synth.procedural.solids import ball, box, extrude, lathe, rod, rounded_box, shell, shift, tube, turn
+from wm.synth.procedural.solids import Real, ball, box, extrude, lathe, rod, rounded_box, shell, shift, tube, turn
 
 
-def shade(kind: str, radius: float, height: float, z: float) -> list[Part]:
+def shade(kind: str, radius: Real, height: Real, z: Real) -> list[Part]:
     """A lamp shade standing on z: an open shell around a bulb, or a closed globe."""
     if kind == "globe":
         return of("lamp_shade", ball((0, 0, z + radius), radius, 24))

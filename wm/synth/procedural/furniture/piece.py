@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from wm.synth.procedural.finish import Rgb, Style
-from wm.synth.procedural.solids import Solid
+from wm.synth.procedural.solids import Point3, Solid
 
-Size = tuple[float, float, float]
+Size = Point3
 """Width (x), depth (y), height (z), metres."""
 
 EMISSION: dict[str, float] = {"bulb": 1.0, "flame": 1.0, "ember": 0.8, "lamp_shade": 0.45, "screen": 0.05}

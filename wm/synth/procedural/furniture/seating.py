@@ -6,7 +6,7 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.common import finial, frame_wood, leg, legs, tracery
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.outlines import arch, frame, rounded
-from wm.synth.procedural.solids import Solid, box, extrude, lathe, puff, rod, rounded_box, shift, tube, turn
+from wm.synth.procedural.solids import Real, Solid, box, extrude, lathe, puff, rod, rounded_box, shift, tube, turn
 
 
 def lounge(style: Style, rng: np.random.Generator, size: Size, seats: int) -> Model:
@@ -47,9 +47,7 @@ def lounge(style: Style, rng: np.random.Generator, size: Size, seats: int) -> Mo
     return Model(parts)
 
 
-def arms(
-    style: Style, w: float, d: float, foot: float, top: float, arm: float, *, framed: bool, cloth: str, wood: str
-) -> list[Part]:
+def arms(style: Style, w: Real, d: Real, foot: Real, top: Real, arm: Real, *, framed: bool, cloth: str, wood: str) -> list[Part]:
     """Two arms: open wooden ones, rolled or square upholstered ones."""
     parts: list[Part] = []
     for s in (-1.0, 1.0):
@@ -73,7 +71,7 @@ def arms(
 
 
 def lounge_back(
-    style: Style, x: float, width: float, d: float, seat: float, h: float, back: float, soft: float, *, cloth: str, wood: str
+    style: Style, x: Real, width: Real, d: Real, seat: Real, h: Real, back: Real, soft: Real, *, cloth: str, wood: str
 ) -> list[Part]:
     """The back of one seat: a padded arch in a carved frame, or a leaning cushion."""
     kind = {"pointed_arch": "pointed", "round_arch": "round", "wave": "wave"}.get(style.form.back)
@@ -125,7 +123,7 @@ def chair(style: Style, rng: np.random.Generator, size: Size) -> Model:
     return Model(parts + backs)
 
 
-def sabre_legs(w: float, d: float, seat: float) -> list[Solid]:
+def sabre_legs(w: Real, d: Real, seat: Real) -> list[Solid]:
     """Legs of a klismos: swept forward and back."""
     solids = []
     for sx in (-1.0, 1.0):
@@ -141,7 +139,7 @@ def sabre_legs(w: float, d: float, seat: float) -> list[Solid]:
     return solids
 
 
-def chair_back(style: Style, w: float, d: float, seat: float, h: float, wood: str) -> list[Part]:
+def chair_back(style: Style, w: Real, d: Real, seat: Real, h: Real, wood: str) -> list[Part]:
     """The upright back of a chair from the seat to the height h, before it leans."""
     y0, y1 = d / 2 - 0.045, d / 2 - 0.012
     tall = h - seat + 0.02

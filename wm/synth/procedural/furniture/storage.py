@@ -8,17 +8,17 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.common import COLUMN, finial, frame_wood, front, legs
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, Top, of, pick
 from wm.synth.procedural.outlines import arch, rectangle
-from wm.synth.procedural.solids import box, extrude, lathe, puff, rounded_box, turn
+from wm.synth.procedural.solids import Real, box, extrude, lathe, puff, rounded_box, turn
 
 
-def plinth(style: Style, w: float, d: float, height: float, slot: str) -> list[Part]:
+def plinth(style: Style, w: Real, d: Real, height: Real, slot: str) -> list[Part]:
     """What a cupboard stands on: legs, or a recessed base."""
     if style.form.legs in ("tapered", "hairpin", "cabriole", "turned") and height > 0.07:
         return legs(style, w - 0.02, d - 0.02, height + 0.01, min(0.06, height), slot=slot)
     return of(slot, box((-w / 2 + 0.03, -d / 2 + 0.05, 0.0), (w / 2 - 0.03, d / 2 - 0.02, height + 0.01)))
 
 
-def crown(style: Style, w: float, d: float, z: float, slot: str) -> list[Part]:
+def crown(style: Style, w: Real, d: Real, z: Real, slot: str) -> list[Part]:
     """The cornice of a tall piece, at most 12 cm high: mouldings, and a gable or arch where the style has them."""
     if style.form.ornament < 0.3:
         return of(slot, box((-w / 2, -d / 2, z), (w / 2, d / 2, z + 0.025), 0.003))
@@ -38,7 +38,7 @@ def crown(style: Style, w: float, d: float, z: float, slot: str) -> list[Part]:
     return parts
 
 
-def carcass(w: float, d: float, z0: float, z1: float, thickness: float = 0.025) -> list:
+def carcass(w: Real, d: Real, z0: Real, z1: Real, thickness: Real = 0.025) -> list:
     """An open box: sides, back, bottom and top, its front at -d / 2."""
     t = thickness
     return [
@@ -53,14 +53,14 @@ def carcass(w: float, d: float, z0: float, z1: float, thickness: float = 0.025) 
 def books(
     style: Style,
     rng: np.random.Generator,
-    x0: float,
-    x1: float,
-    y0: float,
-    y1: float,
-    z: float,
-    room: float,
+    x0: Real,
+    x1: Real,
+    y0: Real,
+    y1: Real,
+    z: Real,
+    room: Real,
     *,
-    fill: float = 0.9,
+    fill: Real = 0.9,
 ) -> list[Part]:
     """A row of standing books between x0 and x1 with their spines at y0, on z, under a clear height."""
     parts: list[Part] = []
@@ -139,7 +139,7 @@ def bookshelf(style: Style, rng: np.random.Generator, size: Size) -> Model:
     return Model(parts)
 
 
-def spandrel(style: Style, w: float, height: float, bays: int, z: float):
+def spandrel(style: Style, w: Real, height: Real, bays: int, z: Real):
     """A board with one arched opening per bay, between z and z + height."""
     board = rectangle(w, height, at=(0.0, z))
     pitch = w / bays
@@ -149,7 +149,7 @@ def spandrel(style: Style, w: float, height: float, bays: int, z: float):
     return board
 
 
-def vessel(style: Style, rng: np.random.Generator, x: float, y: float, z: float, height: float) -> list[Part]:
+def vessel(style: Style, rng: np.random.Generator, x: Real, y: Real, z: Real, height: Real) -> list[Part]:
     """A vase or bowl."""
     shapes = (
         [(0.3, 0.0), (0.48, 0.25), (0.52, 0.45), (0.25, 0.75), (0.2, 0.85), (0.3, 1.0)],
@@ -165,7 +165,7 @@ def vessel(style: Style, rng: np.random.Generator, x: float, y: float, z: float,
 
 
 def cupboard(
-    style: Style, size: Size, columns: int, rows: int, *, slot: str, base: float, handle: str, tall: bool = False
+    style: Style, size: Size, columns: int, rows: int, *, slot: str, base: Real, handle: str, tall: bool = False
 ) -> Model:
     """A closed case with a grid of doors or drawers."""
     w, d, h = size

@@ -8,10 +8,10 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.common import COLUMN, TURNED, frame_wood, front, legs
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, Top, of
 from wm.synth.procedural.outlines import arch, rounded
-from wm.synth.procedural.solids import box, extrude, lathe, rounded_box, shift, tube
+from wm.synth.procedural.solids import Real, box, extrude, lathe, rounded_box, shift, tube
 
 
-def slab_top(style: Style, w: float, d: float, h: float, thickness: float, *, slot: str) -> list[Part]:
+def slab_top(style: Style, w: Real, d: Real, h: Real, thickness: Real, *, slot: str) -> list[Part]:
     """A table top with the edge its style gives it."""
     if style.form.ornament > 0.5:
         lower = rounded_box(
@@ -24,11 +24,11 @@ def slab_top(style: Style, w: float, d: float, h: float, thickness: float, *, sl
     return of(slot, box((-w / 2, -d / 2, h - thickness), (w / 2, d / 2, h), 0.003))
 
 
-def top_of(w: float, d: float, h: float, inset: float = 0.03) -> tuple[Top, ...]:
+def top_of(w: Real, d: Real, h: Real, inset: Real = 0.03) -> tuple[Top, ...]:
     return (Top(h, -w / 2 + inset, -d / 2 + inset, w / 2 - inset, d / 2 - inset),)
 
 
-def table(style: Style, w: float, d: float, h: float, *, thickness: float, leg: float, apron: float = 0.07) -> Model:
+def table(style: Style, w: Real, d: Real, h: Real, *, thickness: Real, leg: Real, apron: Real = 0.07) -> Model:
     """A rectangular table on legs, or on end panels or marble trestles where the style has them."""
     form = style.form
     if form.legs == "column":
@@ -148,13 +148,14 @@ def console_table(style: Style, rng: np.random.Generator, size: Size) -> Model:
 def desk(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A writing desk: a pedestal of drawers on one side or both, legs or a panel otherwise; one sits at its front."""
     w, d, h = size
+    form = style.form
     wood = frame_wood(style)
     parts = slab_top(style, w, d, h, 0.035, slot=wood)
-    if style.form.ornament > 0.3:
+    if form.ornament > 0.3:
         parts += of(
             "leather", rounded_box((-w / 2 + 0.12, -d / 2 + 0.08, h - 0.012), (w / 2 - 0.12, d / 2 - 0.1, h + 0.002), 0.003, 1)
         )
-    sides = (-1.0, 1.0) if w > 1.35 and style.form.ornament > 0.3 else (1.0,)
+    sides = (-1.0, 1.0) if w > 1.35 and form.ornament > 0.3 else (1.0,)
     wide = 0.38
     for s in (-1.0, 1.0):
         x0, x1 = (w / 2 - 0.03 - wide, w / 2 - 0.03) if s > 0 else (-w / 2 + 0.03, -w / 2 + 0.03 + wide)
@@ -169,7 +170,9 @@ def desk(style: Style, rng: np.random.Generator, size: Size) -> Model:
         for low, high in itertools.pairwise(levels.tolist()):
             parts += front(style, x0 + 0.012, x1 - 0.012, low + 0.004, high - 0.004, -d / 2 + 0.05, slot=wood, handle="centre")
     parts += of(wood, box((-w / 2 + 0.05, d / 2 - 0.06, 0.3), (w / 2 - 0.05, d / 2 - 0.04, h - 0.03)))
-    return Model(parts, (Top(h + 0.002, -w / 2 + 0.06, -d / 2 + 0.05, w / 2 - 0.06, d / 2 - 0.04),))
+    return Model(
+        parts, (Top(h + (0.002 if form.ornament > 0.3 else 0.0), -w / 2 + 0.06, -d / 2 + 0.05, w / 2 - 0.06, d / 2 - 0.04),)
+    )
 
 
 def nightstand(style: Style, rng: np.random.Generator, size: Size) -> Model:

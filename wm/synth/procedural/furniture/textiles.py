@@ -6,15 +6,15 @@ import shapely
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.outlines import circle, rounded
-from wm.synth.procedural.solids import Solid, box, extrude, lathe, rod, shift, turn
+from wm.synth.procedural.solids import Real, Solid, box, extrude, lathe, rod, shift, turn
 
 
 def inlaid(
     outline: shapely.Polygon,
     widths: list[float],
     slots: list[str],
-    low: float,
-    high: float,
+    low: Real,
+    high: Real,
     axis: str,
 ) -> list[Part]:
     """A flat thing of nested bands from the border inward; each band is its own solid, so that no faces share a plane area."""
@@ -73,7 +73,7 @@ def bath_mat(style: Style, rng: np.random.Generator, size: Size) -> Model:
     return Model(inlaid(outline, [0.05], ["linen", "fabric_accent"], 0.0, h, "z"))
 
 
-def drape(x0: float, x1: float, y: float, low: float, high: float, folds: int, depth: float, tie: float | None) -> Solid:
+def drape(x0: Real, x1: Real, y: Real, low: Real, high: Real, folds: int, depth: Real, tie: Real | None) -> Solid:
     """A hanging cloth between x0 and x1 in deep folds around the plane y; gathered towards x = tie below where one is given."""
     n = folds * 8 + 1
     t = np.linspace(0.0, 1.0, n)

@@ -9,11 +9,11 @@ from wm.synth.procedural.finish import Rgb, Style
 from wm.synth.procedural.furniture.common import COLUMN, frame_wood
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, Top, of
 from wm.synth.procedural.outlines import arch, frame, rectangle, rounded
-from wm.synth.procedural.solids import ball, box, extrude, lathe, rod, rounded_box, shift, stretch, turn
+from wm.synth.procedural.solids import Point3, Real, ball, box, extrude, lathe, rod, rounded_box, shift, stretch, turn
 
 
 def framed(
-    style: Style, outline: shapely.Polygon, d: float, border: float, inside: str, *, wood: str, color: Rgb | None = None
+    style: Style, outline: shapely.Polygon, d: Real, border: Real, inside: str, *, wood: str, color: Rgb | None = None
 ) -> list[Part]:
     """A frame with something flat in it; its back lies at d / 2."""
     parts = of(wood, extrude(frame(outline, border), -d / 2 + 0.25 * d, d / 2, "y"))
@@ -152,7 +152,7 @@ def clock(style: Style, rng: np.random.Generator, size: Size) -> Model:
     return Model(parts + dial(0.34 * w, (0.0, -d / 2 + 0.02, h - 0.31)))
 
 
-def dial(radius: float, at: tuple[float, float, float]) -> list[Part]:
+def dial(radius: Real, at: Point3) -> list[Part]:
     """A clock face towards -y: rim, dial, hour marks, hands."""
     x, y, z = at
     parts = of("brass", shift(turn(lathe([(radius, -0.012), (1.06 * radius, 0.0), (radius, 0.012)], 32), "x", 90), at))
