@@ -114,7 +114,7 @@ def fbm(
 
 def visible(wavelength: float, footprint: Float[np.ndarray, "..."] | Scalar) -> np.ndarray:
     """How much of a pattern of this wavelength survives the footprint: 1 from two footprints on, 0 at one."""
-    return np.clip(F32(wavelength) / np.maximum(footprint, F32(1e-6)) - F32(1), F32(0), F32(1)).astype(F32)
+    return np.asarray(np.clip(F32(wavelength) / np.maximum(footprint, F32(1e-6)) - F32(1), F32(0), F32(1)), F32)
 
 
 def line(

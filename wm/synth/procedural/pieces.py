@@ -1,7 +1,7 @@
 """The look of objects: which finish each face of each piece has, and the coordinates its pattern is laid in.
 
-A piece's mesh falls into parts (faces of one slot that hang together: a leg, a seat, a door). Solid materials are cut from a block
-of their own for every part, the grain along the part's longest side; laid patterns use the two axes across the face's normal.
+A piece's mesh falls into parts (faces of one slot that hang together: a leg, a seat, a door). Solid materials are cut from a
+block of their own for every part, the grain along the part's longest side; laid patterns use the two axes across the face's normal.
 """
 
 import dataclasses
@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from wm.synth.procedural.color import to_linear
+from wm.synth.procedural.color import LUMINANCE, to_linear
 from wm.synth.procedural.finish import Finish, Style
 from wm.synth.procedural.light.sources import glow_color
 from wm.synth.procedural.materials import Points, evaluate
@@ -31,7 +31,8 @@ class Pieces:
     finishes: tuple[Finish, ...]
     seeds: tuple[int, ...]
     face_finish: np.ndarray  # [f] int32 index into finishes
-    tint: np.ndarray  # [f, 3] float32: the slot's own colour over the finish's, linear
+    color: np.ndarray  # [f, 3] float32 the slot's own colour, linear
+    recolored: np.ndarray  # [f] bool: that colour is not the finish's, whose pattern then only gives light and dark
     corners: np.ndarray  # [f, 3, 3] float32 the face's corners in its part's frame, metres
     axis: np.ndarray  # [f] int8 the axis of that frame nearest to the face's normal
     emission: np.ndarray  # [f, 3] float32 radiance that the eye sees of a glowing face
@@ -40,40 +41,48 @@ class Pieces:
 
 def build_pieces(objects: list[SceneObject], style: Style, *, seed: int) -> Pieces:
     """Look of the faces of `objects`, one after the other."""
-    finishes: dict[str, int] = {}
-    table: list[Finish] = []
-    parts: dict[str, list[np.ndarray]] = {name: [] for name in ("finish", "tint", "corners", "axis", "emission", "glow")}
+    table: dict[str, tuple[int, Finish]] = {}
+    columns: dict[str, list[np.ndarray]] = {name: [np.zeros(shape, kind)] for name, (shape, kind) in _COLUMNS.items()}
     for number, thing in enumerate(objects):
-        own = [_finish(style, name, thing.slot_colors[k]) for k, name in enumerate(thing.slots)]
-        for name, finish in zip(thing.slots, own):
-            if name not in finishes:
-                finishes[name] = len(table)
-                table.append(finish)
-        slot = thing.face_slot
-        ids = np.array([finishes[name] for name in thing.slots], np.int32)
-        base = np.array([table[k].colors[0] for k in ids], F32)
-        tint = to_linear(np.asarray(thing.slot_colors, F32)) / np.maximum(to_linear(base), 0.01)
-        grained = np.array([table[k].material in GRAINED for k in ids])
-        corners, axis = _part_frames(thing, grained, seed * 131 + number)
-        strength = np.asarray(thing.emission, F32)
-        color = np.stack([glow_color(thing, k, style.light) for k in range(len(thing.slots))])
-        glow = color * strength[:, None]
-        seen = color * (np.where(strength > 0, F32(0.75) + F32(0.45) * np.minimum(strength, 2), 0))[:, None]
-        for name, value in (
-            ("finish", ids[slot]), ("tint", np.clip(tint, 0, 12)[slot]), ("corners", corners), ("axis", axis),
-            ("emission", seen[slot]), ("glow", glow[slot]),
-        ):  # fmt: skip
-            parts[name].append(value)
-    shapes = {"finish": (0,), "tint": (0, 3), "corners": (0, 3, 3), "axis": (0,), "emission": (0, 3), "glow": (0, 3)}
-    joined = {
-        name: np.concatenate([np.zeros(shapes[name], values[0].dtype if values else F32), *values])
-        for name, values in parts.items()
-    }
+        for k, name in enumerate(thing.slots):
+            table.setdefault(name, (len(table), _finish(style, name, thing.slot_colors[k])))
+        for name, values in _columns(thing, [table[name] for name in thing.slots], style, seed * 131 + number).items():
+            columns[name].append(values)
     return Pieces(
-        finishes=tuple(table), seeds=tuple(seed * 17 + 3 * k for k in range(len(table))), face_finish=joined["finish"].astype(np.int32),
-        tint=joined["tint"].astype(F32), corners=joined["corners"].astype(F32), axis=joined["axis"].astype(np.int8),
-        emission=joined["emission"].astype(F32), glow=joined["glow"].astype(F32),
-    )  # fmt: skip
+        finishes=tuple(finish for _, finish in table.values()),
+        seeds=tuple(seed * 17 + 3 * k for k in range(len(table))),
+        **{name: np.concatenate(values).astype(_COLUMNS[name][1]) for name, values in columns.items()},
+    )
+
+
+_COLUMNS: dict[str, tuple[tuple[int, ...], type]] = {
+    "face_finish": ((0,), np.int32),
+    "color": ((0, 3), F32),
+    "recolored": ((0,), bool),
+    "corners": ((0, 3, 3), F32),
+    "axis": ((0,), np.int8),
+    "emission": ((0, 3), F32),
+    "glow": ((0, 3), F32),
+}
+
+
+def _columns(thing: SceneObject, finishes: list[tuple[int, Finish]], style: Style, seed: int) -> dict[str, np.ndarray]:
+    """The per-face fields of Pieces for one object, given the number and finish of each of its slots."""
+    color = np.asarray(thing.slot_colors, F32)
+    base = np.array([finish.colors[0] for _, finish in finishes], F32)
+    grained = np.array([finish.material in GRAINED for _, finish in finishes])
+    corners, axis = _part_frames(thing, grained, seed)
+    strength = np.asarray(thing.emission, F32)[:, None]
+    light = np.stack([glow_color(thing, k, style.light) for k in range(len(thing.slots))])
+    seen = np.where(strength > 0, light * (F32(0.75) + F32(0.45) * np.minimum(strength, 2)), 0)
+    by_slot = {
+        "face_finish": np.array([number for number, _ in finishes]),
+        "color": to_linear(color),
+        "recolored": np.abs(color - base).max(axis=1) > 0.02,
+        "emission": seen,
+        "glow": light * strength,
+    }
+    return {name: values[thing.face_slot] for name, values in by_slot.items()} | {"corners": corners, "axis": axis}
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -102,7 +111,7 @@ def look(pieces: Pieces, face: np.ndarray, barycentric: np.ndarray, footprint: n
         u, v = np.where(axis == 0, p[:, 1], p[:, 0]), np.where(axis == 2, p[:, 1], p[:, 2])
         points = Points(u=u, v=v, x=p[:, 0], y=p[:, 1], z=p[:, 2], footprint=footprint[chosen])
         surface = evaluate(points, finish, seed=pieces.seeds[k])
-        color = np.clip(surface.albedo.T * pieces.tint[face[chosen]], 0, 0.92)
+        color = np.clip(_recolored(surface.albedo.T, finish, pieces, face[chosen]), 0, 0.92)
         gloss = np.clip(1 - np.asarray(surface.roughness, F32), 0, 1) ** 2
         gloss = np.broadcast_to(gloss, len(chosen))[:, None]
         albedo[chosen] = color * F32(1 - surface.metallic)
@@ -117,11 +126,21 @@ def mean_albedo(pieces: Pieces, face: np.ndarray) -> np.ndarray:
     return np.clip(seen.albedo + 0.6 * seen.mirror, 0, 0.92)
 
 
+def _recolored(albedo: np.ndarray, finish: Finish, pieces: Pieces, face: np.ndarray) -> np.ndarray:
+    """[n, 3] the albedo, or where the slot has a colour of its own that colour, as light or dark as the pattern makes it."""
+    changed = pieces.recolored[face]
+    if not changed.any():
+        return albedo
+    base = float(to_linear(np.asarray(finish.colors[0], F32)) @ LUMINANCE)
+    shade = np.clip((albedo @ LUMINANCE) / max(base, 0.005), 0.3, 1.8)
+    return np.where(changed[:, None], pieces.color[face] * shade[:, None], albedo)
+
+
 def _finish(style: Style, slot: str, color: np.ndarray) -> Finish:
     try:
         return style.slot(slot)
     except KeyError:  # a slot of somebody else's objects: painted in its own colour
-        return Finish("paint", (tuple(float(c) for c in color[:3]),))
+        return Finish("paint", ((float(color[0]), float(color[1]), float(color[2])),))
 
 
 def _part_frames(thing: SceneObject, grained: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:

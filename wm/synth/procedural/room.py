@@ -12,9 +12,11 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.light import (
     BakeSettings,
     LightPoints,
+    Probes,
     RoomCharts,
     bake,
     build_facets,
+    build_probes,
     ceiling_emitters,
     lamp_emitters,
     luxel_positions,
@@ -56,7 +58,8 @@ def bake_room(
     with ThreadPoolExecutor(2) as pool:
         sheets = list(pool.map(lambda chart: dress(chart, _gaps(plan, room, chart), interior), spans))
     pieces, facets, facet_faces = _objects(scene, room, objects, style, interior.seed, settings)
-    points = _light_points(charts, sheets, pieces, facets, facet_faces)
+    probes = build_probes(facets, spacing=settings.probe_spacing, budget=settings.probes)
+    points = _light_points(charts, sheets, pieces, facets, facet_faces, probes)
     lamps = lamp_emitters(objects, room, style.light) or ceiling_emitters(interior.polygon, interior.height, style.light)
     light = style.light
     middle = np.append(interior.polygon.mean(axis=0), min(1.6, 0.6 * interior.height))
@@ -72,7 +75,7 @@ def bake_room(
     first = len(charts.atlas.inside)
     return BakedRoom(
         charts=charts, textures=build_pyramid(images, settings.cell / PER_CELL), facet_faces=facet_faces, facets=facets, pieces=pieces,
-        light=np.concatenate([field.irradiance[first:], field.mirror[first:]], axis=1),
+        light=probes.mix @ np.concatenate([field.irradiance[first:], field.mirror[first:]], axis=1),
     )  # fmt: skip
 
 
@@ -131,7 +134,7 @@ def _objects(
 
 
 def _light_points(
-    charts: RoomCharts, sheets: list[Sheet], pieces: Pieces, facets: Facets, facet_faces: np.ndarray
+    charts: RoomCharts, sheets: list[Sheet], pieces: Pieces, facets: Facets, facet_faces: np.ndarray, probes: Probes
 ) -> LightPoints:
     atlas = charts.atlas
     texels = len(atlas.inside)
@@ -146,12 +149,13 @@ def _light_points(
     return LightPoints(
         charts=charts,
         facets=facets,
+        probes=probes,
         facet_faces=facet_faces,
-        position=np.concatenate([luxel_positions(charts), facets.position]),
-        normal=np.concatenate([atlas.chart_normal[charts_of], facets.normal]),
-        albedo=np.concatenate([albedo, mean_albedo(pieces, facets.face)]),
-        glow=np.concatenate([glow, pieces.glow[facets.face]]),
-        live=np.concatenate([atlas.inside, np.ones(len(facets.position), bool)]),
+        position=np.concatenate([luxel_positions(charts), probes.position]),
+        normal=np.concatenate([atlas.chart_normal[charts_of], probes.normal]),
+        albedo=np.concatenate([albedo, mean_albedo(pieces, probes.face)]),
+        glow=np.concatenate([glow, pieces.glow[probes.face]]),
+        live=np.concatenate([atlas.inside, np.ones(len(probes.position), bool)]),
     )
 
 

@@ -1,8 +1,8 @@
 """The exact offline world of a scene: every room dressed and lit, seen from any camera.
 
 What a surface looks like does not depend on where it is seen from (glosses reflect for the middle of the room), so that gaussians
-without view-dependence can show it. Tiers of work: per scene one BVH; per room, when first seen, one bake (wm.synth.procedural.room);
-per view one cast, a texture look-up per pixel, and more samples in the pixels where surfaces meet.
+without view-dependence can show it. Tiers of work: per scene one BVH; per room, when first seen, one bake
+(wm.synth.procedural.room); per view one cast, a texture look-up per pixel, and more samples in the pixels where surfaces meet.
 """
 
 import collections

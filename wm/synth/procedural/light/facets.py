@@ -1,7 +1,7 @@
 """Where light is stored on objects: corners of a regular subdivision of every triangle.
 
-A triangle whose longest edge is L is divided into n x n small ones, n = ceil(L / spacing). Corner (i, j), 0 <= i + j <= n, lies at
-barycentrics (i, j) / n and is entry i (n + 1) - i (i - 1) / 2 + j of the face's part of a table. Corners of neighbouring faces
+A triangle whose longest edge is L is divided into n x n small ones, n = ceil(L / spacing). Corner (i, j), 0 <= i + j <= n, lies
+at barycentrics (i, j) / n and is entry i (n + 1) - i (i - 1) / 2 + j of the face's part of a table. Corners of neighbouring faces
 that agree in place and in smoothed normal are one light point, so light is continuous over curved surfaces and breaks at creases.
 """
 
@@ -9,7 +9,7 @@ import dataclasses
 
 import numpy as np
 from jaxtyping import Float, Int
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import coo_array
 
 CREASE = np.cos(np.radians(40.0))
 """Faces that meet at a smaller angle are shaded as one smooth surface."""
@@ -37,7 +37,8 @@ def build_facets(vertices: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3
     if len(faces) == 0:
         none = np.zeros(0, np.int32)
         return Facets(
-            divisions=none, start=np.zeros(0, np.int64), table=none, position=np.zeros((0, 3)), normal=np.zeros((0, 3)), face=none,
+            divisions=none, start=np.zeros(0, np.int64), table=none,
+            position=np.zeros((0, 3)), normal=np.zeros((0, 3)), face=none,
             corner_normal=np.zeros((0, 3, 3), np.float32),
         )  # fmt: skip
     corners = vertices[faces]
@@ -89,22 +90,6 @@ def facet_weights(
     return points, weights / weights.sum(axis=1, keepdims=True)
 
 
-def facet_edges(facets: Facets) -> csr_array:
-    """[p, p] how often two light points are corners of one small triangle: what light is smoothed along."""
-    rows, columns = [], []
-    for n in np.unique(facets.divisions):
-        chosen = np.flatnonzero(facets.divisions == n)
-        a, b = _lattice_edges(int(n))
-        rows.append(facets.table[facets.start[chosen][:, None] + a].ravel())
-        columns.append(facets.table[facets.start[chosen][:, None] + b].ravel())
-    p = len(facets.position)
-    if not rows:
-        return csr_array((p, p), dtype=np.float32)
-    i, j = np.concatenate(rows), np.concatenate(columns)
-    half = coo_array((np.ones(len(i), np.float32), (i, j)), shape=(p, p)).tocsr()
-    return (half + half.T).tocsr()
-
-
 def _corner_normals(corners: np.ndarray) -> np.ndarray:
     """[f, 3, 3] unit normals: at each corner the area-weighted mean of the faces there that meet this one smoothly."""
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -130,18 +115,6 @@ def _cell_middle(weights: np.ndarray, n: int) -> np.ndarray:
     """Barycentrics a small triangle further towards the face's middle."""
     toward = np.full(3, 1 / 3) - weights
     return weights + toward * min(1.0, 1.5 / n)
-
-
-def _lattice_edges(n: int) -> tuple[np.ndarray, np.ndarray]:
-    index = {(i, j): k for k, (i, j) in enumerate((i, j) for i in range(n + 1) for j in range(n + 1 - i))}
-    pairs = [
-        (index[i, j], index[i + di, j + dj])
-        for i, j in index
-        for di, dj in ((1, 0), (0, 1), (1, -1))
-        if (i + di, j + dj) in index
-    ]
-    a, b = np.array(pairs).T
-    return a, b
 
 
 def _place_keys(points: np.ndarray, step: float) -> np.ndarray:

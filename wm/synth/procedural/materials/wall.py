@@ -80,7 +80,7 @@ def trim_profile(finish: Finish) -> Finish:
     return dataclasses.replace(finish, contrast=0.5 * finish.contrast)
 
 
-def _ogee(x: np.ndarray, y: np.ndarray, soft: np.ndarray | float) -> np.ndarray:
+def _ogee(x: np.ndarray, y: np.ndarray, soft: np.ndarray | np.floating | float) -> np.ndarray:
     """The onion-shaped frame that damask repeats hang in."""
     bow = F32(0.5) + F32(0.42) * np.cos(np.pi * y) + F32(0.06) * np.cos(3 * np.pi * y)
     distance = np.abs(x - bow)
@@ -88,7 +88,7 @@ def _ogee(x: np.ndarray, y: np.ndarray, soft: np.ndarray | float) -> np.ndarray:
     return edge(leaf - distance, soft)
 
 
-def _flower(x: np.ndarray, y: np.ndarray, soft: np.ndarray | float) -> np.ndarray:
+def _flower(x: np.ndarray, y: np.ndarray, soft: np.ndarray | np.floating | float) -> np.ndarray:
     """A palmette: petals round a bud, on a stem with two leaves."""
     radius, angle = np.hypot(x * F32(1.15), y * F32(1.5) - F32(0.05)), np.arctan2(y * F32(1.5) - F32(0.05), x * F32(1.15))
     petals = F32(0.34) + F32(0.14) * np.abs(np.cos(F32(3.5) * (angle - F32(np.pi / 2))))

@@ -1,0 +1,54 @@
+"""Laws of dressed surfaces: every family dresses every kind of surface physically; openings get casings; panes glow."""
+
+import numpy as np
+import pytest
+
+from wm.synth.procedural.families import FAMILIES
+from wm.synth.procedural.style import style_of
+from wm.synth.procedural.surfaces import Chart, Gap, Interior, dress
+from wm.types import SurfaceKind
+
+KINDS = [SurfaceKind.WALL, SurfaceKind.FLOOR, SurfaceKind.CEILING, SurfaceKind.REVEAL, SurfaceKind.PANE]
+
+
+def interior(theme: str, kind: str = "living") -> Interior:
+    style = style_of(theme)
+    polygon = np.array([[0, 0], [4, 0], [4, 3], [0, 3]], float)
+    return Interior(name=kind, kind=kind, polygon=polygon, height=2.8, style=style, surfaces=style.surfaces(kind), seed=5)
+
+
+def chart(kind: SurfaceKind, texel: float = 0.04) -> Chart:
+    if kind in (SurfaceKind.FLOOR, SurfaceKind.CEILING):
+        up = 1.0 if kind == SurfaceKind.FLOOR else -1.0
+        u, v = np.array([1.0, 0, 0]), np.array([0, up, 0.0])
+        origin = np.array([0.0, 0.0 if up > 0 else 3.0, 0.0 if up > 0 else 2.8])
+        return Chart(kind, origin, u, v, np.array([0, 0, up]), (round(3 / texel), round(4 / texel)), texel)
+    width, height, base = (4.0, 2.8, 0.0) if kind == SurfaceKind.WALL else (1.2, 1.4, 0.9)
+    axes = np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.array([0, -1.0, 0])
+    return Chart(kind, np.array([0, 3.0, base]), *axes, (round(height / texel), round(width / texel)), texel)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_family_dresses_every_surface(family, kind):
+    gaps = (Gap("door", 0.5, 1.4, 0.0, 2.0), Gap("window", 2.2, 3.4, 0.9, 2.1))
+    flat = chart(kind)
+    for room in ("living", "hall"):
+        sheet = dress(flat, gaps, interior(family, room))
+        assert sheet.albedo.shape == (3, *flat.shape)
+        assert np.isfinite(sheet.albedo).all()
+        assert sheet.albedo.min() >= 0
+        assert sheet.albedo.max() <= 1
+        assert np.isfinite(sheet.height).all()
+        assert (sheet.emission is not None) == (kind == SurfaceKind.PANE)
+        if sheet.emission is not None:
+            assert sheet.emission.min() >= 0
+            assert 0.2 < sheet.emission.mean() < 5
+
+
+def test_a_door_gets_a_raised_casing():
+    inside = interior("gothic")
+    bare, cased = (dress(chart(SurfaceKind.WALL), gaps, inside) for gaps in ((), (Gap("door", 1.5, 2.5, 0.0, 2.0),)))
+    column = int(1.45 / 0.04)
+    assert cased.height[40, column] > bare.height[40, column] + 0.01
+    np.testing.assert_array_equal(cased.albedo[:, :, -5], bare.albedo[:, :, -5])  # far from the door nothing changes
