@@ -43,6 +43,8 @@ def door(monkeypatch, tmp_path, capsys):
 
         monkeypatch.chdir(tmp_path)
         monkeypatch.setenv("HYDRA_FULL_ERROR", "1")
+        for place in ("hydra.core.utils", "hydra._internal.hydra"):  # logging's dictConfig would close pytest's own handlers
+            monkeypatch.setattr(f"{place}.configure_log", lambda *_: None)
         monkeypatch.setattr(sys, "argv", ["wm", *arguments])
         monkeypatch.setitem(sys.modules, "wm.pipeline", types.SimpleNamespace(run=pipeline))
         code = 0

@@ -91,7 +91,7 @@ def _usable(stretch: Stretch, margin: int) -> int:
 def _tree(shared: Sequence[Stretch], spaces: Sequence[Space], rng: np.random.Generator) -> list[Stretch]:
     """The walls that doors must go through to reach every room from the first hub, by the most natural ways (Prim)."""
     hub = min(range(len(spaces)), key=lambda i: (spaces[i].kind.zone != CIRCULATION, spaces[i].kind.rank, i))
-    costs = [_awkward(stretch, spaces) + 0.5 * rng.random() for stretch in shared]
+    costs = [_awkward(stretch, spaces, hub) + 0.5 * rng.random() for stretch in shared]
     reached, tree = {hub}, []
     while True:
         ways = [k for k, way in enumerate(shared) if len(_rooms(way) & reached) == 1 and _usable(way, TIGHT) >= 90]
@@ -102,12 +102,12 @@ def _tree(shared: Sequence[Stretch], spaces: Sequence[Space], rng: np.random.Gen
         reached |= _rooms(best)
 
 
-def _awkward(stretch: Stretch, spaces: Sequence[Space]) -> float:
-    """How odd a way through this wall would be."""
+def _awkward(stretch: Stretch, spaces: Sequence[Space], hub: int) -> float:
+    """How odd a way through this wall would be; the hub of a house without a hall is as good as one."""
     a, b = (spaces[room].kind for room in sorted(_rooms(stretch)))
     zones = {a.zone, b.zone}
     tight = 1.0 if _usable(stretch, JAMB) < 90 else 0.0
-    if CIRCULATION in zones:
+    if CIRCULATION in zones or hub in _rooms(stretch):
         return tight
     if zones == {PUBLIC}:
         return 2.0 + tight

@@ -103,10 +103,11 @@ def lay_row(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Gener
         slot = _lay_cell(cell, spaces, u, depth, rng)
         slots.append(slot)
         u += slot.width
-    for k, slot in enumerate(slots):  # a step in the outer wall is worth building or it is not made
-        beside = [other.depth for other in slots[max(k - 1, 0) : k + 2] if 0 < abs(other.depth - slot.depth) < STEP]
-        if beside and slot.corner is None:
-            slots[k] = dataclasses.replace(slot, depth=beside[0])
+    for k in [*range(1, len(slots)), *range(len(slots) - 2, -1, -1)]:  # there and back
+        beside = slots[k - 1 : k] + slots[k + 1 : k + 2]
+        near = [other.depth for other in beside if 0 < abs(other.depth - slots[k].depth) < STEP]
+        if near and slots[k].corner is None:  # a step in the outer wall is worth building or it is not made
+            slots[k] = dataclasses.replace(slots[k], depth=near[-1])
     return Row(tuple(slots))
 
 
