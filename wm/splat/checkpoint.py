@@ -4,10 +4,9 @@ import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
-import optax
 
 from wm.splat.room_fit import FitPoint, pad_rows, unpad_rows
-from wm.splat.step import TrainState, start_state
+from wm.splat.step import TrainState, adam_state, start_state
 from wm.types import Gaussians
 
 _LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
@@ -29,7 +28,7 @@ def initial_state(gaussians: Gaussians) -> RoomState:
 
 
 def to_arrays(state: RoomState) -> dict[str, np.ndarray]:
-    """The state as arrays: `gaussians.means`, `mu.means`, `nu.means` and so on, `count`, `history` [points, fields], `stopped`."""
+    """The state as arrays: `gaussians.means`, `mu.means`, `nu.means` ..., `count`, `history` [points, fields], `stopped`."""
     moments = state.train.moments
     groups = {"gaussians": state.train.gaussians, "mu": moments.mu, "nu": moments.nu}
     arrays = {f"{group}.{leaf}": np.asarray(getattr(record, leaf)) for group, record in groups.items() for leaf in _LEAVES}
@@ -53,7 +52,8 @@ def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
     gaussians, mu, nu = (
         Gaussians(**{leaf: np.asarray(arrays[f"{group}.{leaf}"]) for leaf in _LEAVES}) for group in ("gaussians", "mu", "nu")
     )
-    kinds = [int if field.type in (int, "int") else float for field in dataclasses.fields(FitPoint)]
-    history = tuple(FitPoint(*(kind(value) for kind, value in zip(kinds, row))) for row in arrays["history"])
-    moments = optax.ScaleByAdamState(count=np.asarray(arrays["count"]), mu=mu, nu=nu)
-    return RoomState(train=TrainState(gaussians=gaussians, moments=moments), history=history, stopped=str(arrays["stopped"]) or None)
+    names = [field.name for field in dataclasses.fields(FitPoint)]
+    rows = [dict(zip(names, row.tolist())) for row in arrays["history"]]
+    history = tuple(FitPoint(**row | {"step": int(row["step"]), "room": int(row["room"])}) for row in rows)
+    train = TrainState(gaussians=gaussians, moments=adam_state(np.asarray(arrays["count"]), mu, nu))
+    return RoomState(train=train, history=history, stopped=str(arrays["stopped"]) or None)

@@ -1,14 +1,14 @@
 """The initial gaussians of a room: the scaffold's surfaces as its views see them, thinned to a spacing.
 
 Every pixel that shows the room's own surface is a world point with a normal and a colour. Points are gathered in cells of the
-wanted spacing, those of differently facing surfaces apart (a corner keeps one gaussian for each of its walls), and a cell becomes
-one gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. Views are folded in one
-at a time, so memory is bounded by the room's surface.
+wanted spacing, those of differently facing surfaces apart (a corner keeps one gaussian for each of its walls), and a cell
+becomes one gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. Views are
+folded in one at a time, so memory is bounded by the room's surface.
 """
 
+import dataclasses
 from collections.abc import Iterable
 
-import chex
 import numpy as np
 from jaxtyping import Float
 
@@ -31,7 +31,7 @@ _SHIFT = 0.381966
 """The grid of cells is shifted by this share of a cell, so that walls at round coordinates do not lie between two."""
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Cloud:
     """Oriented, coloured points on the host."""
 
@@ -110,7 +110,7 @@ def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, r
 
 
 def quats_from_normals(normals: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 4"]:
-    """Unit quaternions (wxyz) of the shortest rotations that take the z axis to unit normals; z itself half a turn about x to -z."""
+    """Unit quaternions (wxyz) of the shortest rotations that take the z axis to unit normals (to -z: half a turn about x)."""
     x, y, z = normals.T
     quats = np.stack([1 + z, -y, x, np.zeros_like(z)], axis=1)  # (1 + z . n, z cross n)
     quats = np.where((z < -1 + 1e-9)[:, None], [0.0, 1.0, 0.0, 0.0], quats)
@@ -133,23 +133,17 @@ def depth_normals(view: TrainingView) -> Float[np.ndarray, "h w 3"]:
 
 
 def _nearer_difference(points, depth, axis: int):
-    """Difference along an image axis, forward or backward, whichever crosses the smaller step in depth; 0 where neither exists."""
-    hit = depth > 0
-    after = np.diff(points, axis=axis)
-    step = np.where(np.logical_and(*(np.take(hit, index, axis) for index in _pairs(depth.shape[axis]))), np.abs(np.diff(depth, axis=axis)), np.inf)
+    """Difference along an image axis, ahead or back, whichever crosses the smaller step in depth; 0 where neither exists."""
     pad = [(0, 0), (0, 0)]
     pad[axis] = (1, 1)
-    step = np.pad(step, pad, constant_values=np.inf)
-    after = np.pad(after, [*pad, (0, 0)])
+    bounded = np.pad(np.where(depth > 0, depth, np.nan), pad, constant_values=np.nan)
+    step = np.nan_to_num(np.abs(np.diff(bounded, axis=axis)), nan=np.inf)
+    move = np.pad(np.diff(points, axis=axis), [*pad, (0, 0)])
     size = depth.shape[axis]
-    back_step, ahead_step = np.take(step, range(size), axis), np.take(step, range(1, size + 1), axis)
-    back, ahead = np.take(after, range(size), axis), np.take(after, range(1, size + 1), axis)
-    nearer = np.where((ahead_step <= back_step)[..., None], ahead, back)
-    return np.where(np.isfinite(np.minimum(back_step, ahead_step))[..., None], nearer, 0.0)
-
-
-def _pairs(size: int):
-    return range(size - 1), range(1, size)
+    back, ahead = (np.take(step, range(i, i + size), axis) for i in (0, 1))
+    move_back, move_ahead = (np.take(move, range(i, i + size), axis) for i in (0, 1))
+    nearer = np.where((ahead <= back)[..., None], move_ahead, move_back)
+    return np.where(np.isfinite(np.minimum(back, ahead))[..., None], nearer, 0.0)
 
 
 def _cells(points, normals, spacing: float):

@@ -5,11 +5,12 @@ import time
 from collections.abc import Callable, Sequence
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.frozen import join_columns, pad_columns, visible_columns
-from wm.splat.room_fit import Capacity, FitPoint, RoomFit, SeenView, host, pad_gaussians, to_target, unpad_rows
+from wm.splat.room_fit import Capacity, Device, FitPoint, RoomFit, SeenView, host, pad_gaussians, to_target, unpad_rows
 from wm.splat.step import project_view, start_state
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
@@ -39,7 +40,7 @@ def fit(
     frozen: Gaussians | None = None,
     heldout: Sequence[TrainingView] = (),
     progress: Progress | None = None,
-    device: jax.Device | None = None,
+    device: Device | None = None,
 ) -> Fit:
     """Gaussians moved so that their renders agree with the views and their depth with the scaffold.
 
@@ -54,7 +55,7 @@ def fit(
         progress: called after every step.
         device: where to compute; JAX's default device if None.
 
-    Returns: the gaussians and the curve. A loss or gradient that is not finite ends the fit with the last good state and a reason.
+    Returns: the gaussians and the curve. A loss or gradient that is not finite ends it with the last good state and a reason.
     Raises: ValueError without views.
     """
     if not views:
@@ -89,7 +90,7 @@ def see_views(
     views: Sequence[TrainingView],
     frozen: Sequence[Sequence[Gaussians]],
     raster: RasterSettings,
-    device: jax.Device,
+    device: Device,
     columns_for: Callable[[int], int] = lambda most: most,
 ) -> list[SeenView]:
     """Views on a device, each with what it sees of its frozen gaussians.
@@ -114,5 +115,5 @@ def see_views(
 
 def seed_of(key: jax.Array) -> tuple[int, ...]:
     """The integers of a JAX key, typed or raw."""
-    data = jax.random.key_data(key) if jax.dtypes.issubdtype(key.dtype, jax.dtypes.prng_key) else key
+    data = jax.random.key_data(key) if jnp.issubdtype(key.dtype, jax.dtypes.prng_key) else key
     return tuple(int(word) for word in np.asarray(data).ravel())

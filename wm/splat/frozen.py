@@ -1,7 +1,7 @@
 """Gaussians that a view sees and that its fit does not move: neighbouring rooms through their doors.
 
-They do not change while the fit runs, so they are projected once per view, and what the scaffold hides from the view is dropped: a
-room behind a wall costs nothing, and what is left is a small set of ellipses, already on the image plane.
+They do not change while the fit runs, so they are projected once per view, and what the scaffold hides from the view is
+dropped: a room behind a wall costs nothing, and what is left is a small set of ellipses, already on the image plane.
 """
 
 import jax
@@ -34,9 +34,9 @@ def visible_columns(projected: Projected, depth: np.ndarray) -> Projected:
 
 def join_columns(*parts: Projected | None) -> Projected:
     """Several projections as one, in order; None stands for none. NumPy stays NumPy."""
-    parts = [part for part in parts if part is not None]
-    join = np.concatenate if all(isinstance(x, np.ndarray) for x in jax.tree.leaves(parts)) else jnp.concatenate
-    return parts[0] if len(parts) == 1 else jax.tree.map(lambda *xs: join(xs, axis=-1), *parts)
+    first, *others = (part for part in parts if part is not None)
+    join = np.concatenate if all(isinstance(x, np.ndarray) for x in jax.tree.leaves((first, others))) else jnp.concatenate
+    return jax.tree.map(lambda *xs: join(xs, axis=-1), first, *others) if others else first
 
 
 def pad_columns(projected: Projected | None, size: int) -> Projected:

@@ -2,9 +2,9 @@
 
     L = (1 - w) mean |C - I|  +  w mean (1 - SSIM(C, I))  +  d mean |D - D_S|
 
-over the usable pixels of a view: C, D rendered colour and depth, I the image, D_S the scaffold's depth in metres. A pixel that the
-mask leaves out has no term of its own, and takes the image's colour before the SSIM window passes over it, so that it does not act
-on its neighbours either.
+over the usable pixels of a view: C, D rendered colour and depth, I the image, D_S the scaffold's depth in metres. A pixel that
+the mask leaves out has no term of its own, and takes the image's colour before the SSIM window passes over it, so that it does
+not act on its neighbours either.
 """
 
 import jax.numpy as jnp
@@ -24,7 +24,11 @@ def photometric_terms(
 
 
 def photometric_loss(
-    rgb: Float[Array, "h w 3"], target: Float[Array, "h w 3"], mask: Bool[Array, "h w"], *, ssim_weight: float
+    rgb: Float[Array, "h w 3"],
+    target: Float[Array, "h w 3"],
+    mask: Bool[Array, "h w"],
+    *,
+    ssim_weight: float | Float[Array, ""],
 ) -> Float[Array, ""]:
     """(1 - w) L1 + w (1 - SSIM) over the mask, w = `ssim_weight`."""
     l1, dissimilarity = photometric_terms(rgb, target, mask)

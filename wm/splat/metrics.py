@@ -12,7 +12,7 @@ import dataclasses
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from wm.geometry.camera import camera_rotation, unproject_depth
+from wm.geometry.camera import camera_rays, unproject_depth
 from wm.types import Camera
 
 
@@ -64,7 +64,9 @@ def normals_from_depth(depth: Float[np.ndarray, "h w"], camera: Camera) -> Float
     return normal / np.where(length > 0, length, 1)
 
 
-def one_surface(face_group: Int[np.ndarray, "h w"], normal: Float[np.ndarray, "h w 3"], *, max_bend: float = 20.0) -> Bool[np.ndarray, "h w"]:
+def one_surface(
+    face_group: Int[np.ndarray, "h w"], normal: Float[np.ndarray, "h w 3"], *, max_bend: float = 20.0
+) -> Bool[np.ndarray, "h w"]:
     """Pixels whose 3x3 neighbourhood is one surface, so that a central difference means its normal.
 
     Args:
@@ -95,10 +97,11 @@ def normal_error(
 
     Scaffold normals are turned to face the camera. Where the depth has no normal the cosine is 0 and the angle 90 degrees.
     """
-    facing = np.sign((scaffold * (unproject_depth(camera, np.ones_like(depth)) - unproject_depth(camera, np.zeros_like(depth)))).sum(-1))
+    rays = camera_rays(camera).reshape(scaffold.shape)
+    away = (scaffold * rays).sum(-1) > 0
     inner = mask.copy()
     inner[[0, -1], :], inner[:, [0, -1]] = False, False
-    cosine = (normals_from_depth(depth, camera) * scaffold).sum(-1) * np.where(facing > 0, -1.0, 1.0)
+    cosine = (normals_from_depth(depth, camera) * scaffold).sum(-1) * np.where(away, -1.0, 1.0)
     cosine = np.clip(cosine[inner], -1, 1)
     return NormalError(cosine=_mean(cosine), angle=_mean(np.degrees(np.arccos(cosine))))
 

@@ -64,21 +64,26 @@ def load_ply(path: str | Path) -> Gaussians:
     rest = len([name for name in names if name.startswith("f_rest_")])
     k = 1 + rest // 3
     if rest % 3 or k not in _SH_COUNTS:
-        raise PlyError(f"{path}: {rest} f_rest_* properties; 3 ((degree + 1)^2 - 1) expected, one of {[3 * (c - 1) for c in _SH_COUNTS]}")
-    missing = [name for name in _field_names(k) if name not in names and name not in ("nx", "ny", "nz")]
+        right = ", ".join(str(3 * (count - 1)) for count in _SH_COUNTS)
+        raise PlyError(f"{path}: {rest} f_rest_* properties; one of {right} would be right")
+    wanted = [name for name in _field_names(k) if name not in ("nx", "ny", "nz")]
+    missing = [name for name in wanted if name not in names]
     if missing:
         raise PlyError(f"{path}: no property {', '.join(missing)}: not a file of gaussians")
 
     def columns(*fields: str) -> np.ndarray:
-        return np.stack([table[field].astype(np.float32) for field in fields], axis=-1) if fields else np.zeros((count, 0), np.float32)
+        return np.stack([table[field].astype(np.float32) for field in fields], axis=-1)
 
-    higher = columns(*(f"f_rest_{i}" for i in range(rest))).reshape(count, 3, k - 1)
+    dc = columns("f_dc_0", "f_dc_1", "f_dc_2")[:, None]
+    higher = np.zeros((count, 3, k - 1), np.float32)
+    for i in range(rest):
+        higher[:, i // (k - 1), i % (k - 1)] = table[f"f_rest_{i}"]
     return Gaussians(
         means=columns("x", "y", "z"),
         quats=columns(*(f"rot_{i}" for i in range(4))),
         log_scales=columns(*(f"scale_{i}" for i in range(3))),
         opacity_logits=columns("opacity")[:, 0],
-        sh=np.concatenate([columns("f_dc_0", "f_dc_1", "f_dc_2")[:, None], np.swapaxes(higher, 1, 2)], axis=1),
+        sh=np.concatenate([dc, np.swapaxes(higher, 1, 2)], axis=1),
     )
 
 
@@ -97,11 +102,11 @@ def _parse_header(path: Path, raw: bytes) -> tuple[int, np.dtype, int]:
     newline = raw.find(b"\n", end) if end >= 0 else -1
     if newline < 0:
         raise PlyError(f"{path}: no end_header line in the first {_MAX_HEADER} bytes")
-    count, fields, elements = -1, [], []
+    count, fields, elements, formats = -1, [], [], []
     for line in raw[:end].decode("ascii", "replace").splitlines()[1:]:
         match line.split():
-            case ["format", kind, *_] if kind != "binary_little_endian":
-                raise PlyError(f"{path}: format {kind}; only binary_little_endian is read")
+            case ["format", kind, *_]:
+                formats.append(kind)
             case ["element", name, size]:
                 elements.append(name)
                 if name == "vertex":
@@ -114,6 +119,8 @@ def _parse_header(path: Path, raw: bytes) -> tuple[int, np.dtype, int]:
                 fields.append((name, "<" + _TYPES[kind]))
             case ["property", "list", *_] if elements and elements[-1] == "vertex":
                 raise PlyError(f"{path}: a list property in element vertex: not a file of gaussians")
+    if formats != ["binary_little_endian"]:
+        raise PlyError(f"{path}: {'format ' + formats[0] if formats else 'no format'}; binary_little_endian would be right")
     if not elements or elements[0] != "vertex":
         raise PlyError(f"{path}: the first element must be vertex, found {elements[:1] or 'none'}")
     if len({name for name, _ in fields}) != len(fields):

@@ -67,7 +67,8 @@ def mutual_pixels(
     """Pixels of i that come back to within `tolerance` pixels when moved into j by D_i and back by D_j."""
     moved = _move(depth_i, camera_i, depth_j, camera_j)
     known = moved.there > 0
-    rays = np.concatenate([(np.where(known[..., None], moved.uv, 0.0) - camera_j.principal) / camera_j.focal, np.ones((*known.shape, 1))], -1)
+    slopes = (np.where(known[..., None], moved.uv, 0.0) - camera_j.principal) / camera_j.focal
+    rays = np.concatenate([slopes, np.ones((*known.shape, 1))], axis=-1)
     T_world_j = np.linalg.inv(np.asarray(camera_j.T_cam_world, np.float64))
     points = (rays * moved.there[..., None]) @ T_world_j[:3, :3].T + T_world_j[:3, 3]
     uv, _ = project_points(camera_i, points.reshape(-1, 3))
@@ -108,7 +109,7 @@ def _move(depth_i, camera_i: Camera, depth_j, camera_j: Camera) -> _Moved:
 
 
 def _sample(depth, uv):
-    """Depth at pixel positions: bilinear in 1 / depth, which is affine over the image of a plane; 0 where a neighbour has none."""
+    """Depth at pixel positions: bilinear in 1 / depth, which is affine over a plane's image; 0 where a neighbour lacks it."""
     h, w = depth.shape
     x, y = np.moveaxis(uv, -1, 0) - 0.5
     inside = (x >= 0) & (x <= w - 1) & (y >= 0) & (y <= h - 1)

@@ -1,23 +1,28 @@
 """The loop over steps for one set of gaussians on one device: order of the views, plans, padding, held-out error.
 
-Tiers of work: per fit (views to the device, padding), per step (projection, plan on the host, train step), at `curve_points` steps
-(held-out renders). The plan of a step is made from the parameters it is used with, so nothing here depends on timing.
+Tiers of work: per fit (views to the device, padding), per step (projection, plan on the host, train step), at `curve_points`
+steps (held-out renders). The plan of a step is made from the parameters it is used with, so nothing here depends on timing.
 """
 
 import dataclasses
 import threading
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import jax
 import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.frozen import join_columns
+from wm.splat.metrics import depth_error, psnr
 from wm.splat.project import Projected
 from wm.splat.step import Rates, StepTerms, Target, TrainState, project_view, rasterize_view, rates_at, train_step
 from wm.splat.tiles import plan_tiles
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
+
+Device = Any
+"""A `jax.Device`, which is a variable to type checkers."""
 
 CULLED_LOGIT = -50.0
 """Opacity logit of padding: far below any alpha cut, so that padding is projected, culled, and neither listed nor moved."""
@@ -28,7 +33,7 @@ HEADROOM = 1.5
 
 @dataclasses.dataclass(frozen=True)
 class FitPoint:
-    """The state of a fit at one step: means of the loss terms since the last point, and held-out error if there are such views."""
+    """A fit at one step: means of the loss terms since the last point, and held-out error if there are such views."""
 
     seconds: float  # wall-clock since the fit began
     step: int  # steps of this room so far
@@ -96,8 +101,8 @@ class RoomFit:
             seen = self.views[view_at(self.seed, step, len(self.views))]
             state, terms = self._step(state, seen, rates_at(self.settings, step, self.settings.steps))
             if not terms.finite:
-                reason = f"room {self.room}, step {step}: loss or gradient is not finite (loss {float(terms.loss)}); kept the state before it"
-                return state, points, reason
+                loss = float(terms.loss)
+                return state, points, f"room {self.room}, step {step}: loss {loss} or gradient not finite; kept the state before"
             since.append(terms)
             report(step + 1, {"loss": float(terms.loss)})
             if step + 1 in marks:
@@ -132,12 +137,10 @@ def view_error(gaussians: Gaussians, seen: SeenView, raster: RasterSettings, cap
     projected = join_columns(host(project_view(gaussians, camera, raster=raster)), seen.frozen)
     plan = plan_with(projected, camera.width, camera.height, raster, capacity)
     render = rasterize_view(projected, plan, width=camera.width, height=camera.height, raster=raster)
-    rgb, depth = np.clip(np.asarray(render.rgb), 0, 1), np.asarray(render.depth)
+    rgb, depth = np.asarray(render.rgb), np.asarray(render.depth)
     mask, scaffold = np.asarray(seen.target.mask), np.asarray(seen.target.depth)
-    squared = np.mean((rgb - np.asarray(seen.target.rgb) / np.float32(255))[mask] ** 2, dtype=np.float64) if mask.any() else np.nan
-    hit = mask & (scaffold > 0)
-    m_mae = np.mean(np.abs(depth - scaffold)[hit], dtype=np.float64) if raster.depth and hit.any() else np.nan
-    return float(-10 * np.log10(max(squared, 1e-10))), float(m_mae)
+    m_mae = depth_error(depth, scaffold, mask).mae if raster.depth else float("nan")
+    return psnr(rgb, np.asarray(seen.target.rgb) / np.float32(255), mask), m_mae
 
 
 def host(tree):
@@ -169,7 +172,7 @@ def view_at(seed: tuple[int, ...], step: int, views: int) -> int:
     return int(np.random.default_rng(np.random.SeedSequence([*seed, epoch])).permutation(views)[place])
 
 
-def to_target(view: TrainingView, device: jax.Device) -> Target:
+def to_target(view: TrainingView, device: Device) -> Target:
     """A training view on a device; what is not NumPy float32 becomes it."""
     camera = jax.tree.map(lambda x: np.asarray(x, np.float32), view.camera)
     target = Target(camera=camera, rgb=view.rgb, depth=np.asarray(view.depth, np.float32), mask=view.mask)

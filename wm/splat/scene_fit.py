@@ -1,9 +1,9 @@
 """Many rooms: each is a fit of its own, beside neighbours held still.
 
-Block Jacobi: in every round each room moves its own gaussians toward its own views, and what those views see of other rooms, through
-doors, is frozen as it stood when the round began. So rooms are independent within a round: they run side by side, one to a device and
-a Python thread, and the result does not depend on which ran where or when. Cost is linear in rooms; the images of a room are in
-memory only while it is fitted. Rooms share compiled steps: their gaussians are padded to a few common sizes.
+Block Jacobi: in every round each room moves its own gaussians toward its own views, and what those views see of other rooms,
+through doors, is frozen as it stood when the round began. So rooms are independent within a round: they run side by side, one to
+a device and a Python thread, and the result does not depend on which ran where or when. Cost is linear in rooms; the images of a
+room are in memory only while it is fitted. Rooms share compiled steps: their gaussians are padded to a few common sizes.
 """
 
 import dataclasses
@@ -19,12 +19,12 @@ import numpy as np
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.checkpoint import RoomState, from_arrays, initial_state, to_arrays
 from wm.splat.fit import DEFAULT_RASTER, Progress, see_views, seed_of
-from wm.splat.room_fit import Capacity, FitPoint, RoomFit, pad_gaussians, pad_rows, unpad_rows
+from wm.splat.room_fit import Capacity, Device, FitPoint, RoomFit, pad_gaussians, pad_rows, unpad_rows
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
 RUNG = 4
-"""Padded sizes are the largest room's count over powers of this: a small room pays at most four times its size, one rung is usual."""
+"""Padded sizes are the largest room's count over powers of this: a room pays at most four times its size, one rung is usual."""
 
 FROZEN_BASE = 16384
 """Columns that every view of a scene of several rooms has for its neighbours; more in steps of RUNG."""
@@ -53,7 +53,7 @@ def fit_scene(
     load: Callable[[int, int], Arrays | None] = lambda round_, room: None,
     store: Callable[[int, int, Arrays], None] = lambda round_, room, arrays: None,
     progress: Progress | None = None,
-    devices: Sequence[jax.Device] | None = None,
+    devices: Sequence[Device] | None = None,
 ) -> SceneFit:
     """The gaussians of every room, fitted to its views.
 
@@ -151,7 +151,7 @@ class _Scene:
         steps, rounds = self.settings.steps, self.settings.rounds
         return steps * round_ // rounds, steps * (round_ + 1) // rounds
 
-    def fit_room(self, round_: int, room: int, device: jax.Device) -> RoomState:
+    def fit_room(self, round_: int, room: int, device: Device) -> RoomState:
         """The state of a room after a round."""
         state, (first, last) = self.states[room], self.stretch(round_)
         views = list(self.views(room))
@@ -159,7 +159,8 @@ class _Scene:
             self.report.skip(last - first)
             return state
         heldout = list(self.heldout(room))
-        seen = see_views([*views, *heldout], self._neighbours([*views, *heldout], room, device), self.raster, device, self._columns)
+        all_views = [*views, *heldout]
+        seen = see_views(all_views, self._neighbours(all_views, room, device), self.raster, device, self._columns)
         room_fit = RoomFit(
             views=seen[: len(views)],
             heldout=seen[len(views) :],
@@ -171,16 +172,16 @@ class _Scene:
             clock=lambda: time.perf_counter() - self.started,
         )
         train = pad_rows(state.train, self._rung(room))
-        train = jax.device_put(train.replace(gaussians=pad_gaussians(state.train.gaussians, self._rung(room))), device)
+        culled = pad_gaussians(state.train.gaussians, self._rung(room))
+        train = jax.device_put(dataclasses.replace(train, gaussians=culled), device)
         train, points, stopped = room_fit.run(train, first, last, lambda done, info: self.report.step(info | {"room": room}))
         return RoomState(train=unpad_rows(train, self._count(room)), history=(*state.history, *points), stopped=stopped)
 
-    def _neighbours(self, views: Sequence[TrainingView], room: int, device: jax.Device) -> list[list[Gaussians]]:
+    def _neighbours(self, views: Sequence[TrainingView], room: int, device: Device) -> list[list[Gaussians]]:
         """What each view may see of other rooms, on the device, each room once."""
         others = sorted({other for view in views for other in view.sees if other != room and self._count(other) > 0})
-        on_device = {
-            other: jax.device_put(pad_gaussians(self.states[other].train.gaussians, self._rung(other)), device) for other in others
-        }
+        padded = {other: pad_gaussians(self.states[other].train.gaussians, self._rung(other)) for other in others}
+        on_device = jax.device_put(padded, device)
         return [[on_device[other] for other in sorted(set(view.sees)) if other in on_device] for view in views]
 
     def _columns(self, most: int) -> int:

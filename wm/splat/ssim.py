@@ -5,20 +5,21 @@ With a gaussian window b (11 taps, sigma 1.5, zero padding) and, per pixel and c
     S = A1 A2 / (B1 B2),   A1 = 2 m_x m_y + c1,      A2 = 2 s_xy + c2,
                            B1 = m_x^2 + m_y^2 + c1,  B2 = s_xx + s_yy + c2
 
-S depends on x through m_x, b * x^2 and b * (x y), so its gradient is three more blurs of the partial derivatives (the window is even):
+S depends on x through m_x, b * x^2 and b * (x y), so its gradient is three more blurs of its partial derivatives (b is even):
 
     dL/dx = b * (g S_mx) + 2 x  b * (g S_xx) + y  b * (g S_xy),   S_xx = -S / B2,   S_xy = 2 A1 / (B1 B2)
 
 The blur is separable. XLA on a CPU fuses the two passes and then recomputes the inner one once per outer tap, ten times slower in
-all; `optimization_barrier` no longer stops it (JAX 0.10 drops barriers before it fuses), a loop does. So the images to be blurred are
+all; `optimization_barrier` no longer stops it (XLA drops barriers before it fuses), a loop does. So the images to be blurred are
 stacked and each pass is a loop over the stack. Channels stay last: a step along columns is a step of c in the flattened row.
 
 Source: Wang et al. 2004, eq. 13 (c1 = 0.01^2, c2 = 0.03^2 for images in [0, 1]); window and padding as in 3D Gaussian Splatting.
 """
 
+import dataclasses
 from functools import partial
+from typing import Any
 
-import chex
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -30,7 +31,8 @@ TAPS = tuple(float(tap) for tap in _taps / _taps.sum())
 C1, C2 = 0.01**2, 0.03**2
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False)
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
 class _Residual:
     """The images and the partial derivatives of the map: by the means, by the second moments, by the mixed moment."""
 
@@ -56,7 +58,8 @@ def ssim(x: Float[Array, "h w c"], y: Float[Array, "h w c"]) -> Float[Array, ""]
 def ssim_map(x: Float[Array, "h w c"], y: Float[Array, "h w c"]) -> Float[Array, "h w c"]:
     """Structural similarity of the windows around each pixel, unreduced; differentiable in both images."""
     h, w, c = x.shape
-    return _ssim_map(x.reshape(h, w * c), y.reshape(h, w * c), c).reshape(h, w, c)
+    flat: Any = _ssim_map(x.reshape(h, w * c), y.reshape(h, w * c), c)
+    return flat.reshape(h, w, c)
 
 
 @partial(jax.custom_vjp, nondiff_argnums=(2,))

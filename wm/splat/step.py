@@ -4,12 +4,13 @@ The step is one jitted function per (gaussian, frozen and plan capacity, image s
 from fit to fit is an argument. A step whose loss or gradient is not finite changes nothing and says so.
 """
 
+import dataclasses
 import functools
 from typing import Any
 
-import chex
 import jax
 import jax.numpy as jnp
+import numpy as np
 import optax
 
 from wm.schema import FitSettings, RasterSettings
@@ -23,7 +24,8 @@ from wm.types import Camera, Gaussians, Render
 _adam = optax.scale_by_adam(eps=1e-15)
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
 class TrainState:
     """Gaussians and the moments of their gradients, on one device."""
 
@@ -31,7 +33,8 @@ class TrainState:
     moments: Any  # optax.ScaleByAdamState
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
 class Target:
     """What a view should show, on the device: `TrainingView` without what only the host needs."""
 
@@ -41,7 +44,8 @@ class Target:
     mask: Any  # [h, w] bool
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
 class Rates:
     """What a step is steered by: learning rates by leaf (already decayed) and the weights of the loss. Scalars, traced."""
 
@@ -50,7 +54,8 @@ class Rates:
     depth: Any
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
 class StepTerms:
     """The loss of one step and its terms, and whether it and its gradient were finite."""
 
@@ -63,7 +68,13 @@ class StepTerms:
 
 def start_state(gaussians: Gaussians) -> TrainState:
     """A state with no history."""
-    return TrainState(gaussians=gaussians, moments=_adam.init(gaussians))
+    mu, nu = (jax.tree.map(np.zeros_like, gaussians) for _ in range(2))
+    return TrainState(gaussians=gaussians, moments=adam_state(np.zeros((), np.int32), mu, nu))
+
+
+def adam_state(count: Any, mu: Any, nu: Any) -> optax.ScaleByAdamState:
+    """Adam's state from the number of steps and the first and second moments, records like the gaussians."""
+    return optax.ScaleByAdamState(count=count, mu=mu, nu=nu)
 
 
 def rates_at(settings: FitSettings, step: int, steps: int) -> Rates:

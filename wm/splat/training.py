@@ -31,4 +31,5 @@ class TrainingView:
             if array is not None and array.shape != shape:
                 raise ValueError(f"training view of room {self.room}: {name} has shape {array.shape}, its camera makes {shape}")
         if self.rgb.dtype != np.uint8 or self.mask.dtype != np.bool_:
-            raise ValueError(f"training view of room {self.room}: rgb must be uint8 and mask bool, not {self.rgb.dtype}, {self.mask.dtype}")
+            kinds = f"{self.rgb.dtype} and {self.mask.dtype}"
+            raise ValueError(f"training view of room {self.room}: rgb and mask must be uint8 and bool, not {kinds}")

@@ -1,0 +1,95 @@
+"""Laws of the fit of a scene: rooms do not depend on which ran where or when, and a broken run ends in the same bytes."""
+
+import dataclasses
+
+import jax
+import numpy as np
+import pytest
+from wm.schema import FitSettings, RasterSettings
+from wm.splat.checkpoint import from_arrays, initial_state, to_arrays
+from wm.splat.cloud import initial_gaussians
+from wm.splat.scene_fit import fit_scene
+
+from tests.splat.rooms import views_of
+
+ROOMS = 3
+SETTINGS = FitSettings(spacing=0.6, steps=4, rounds=2, curve_points=2)
+RASTER = RasterSettings(chunk=1, block=16)
+VIEWS = [views_of(room=room, rooms=ROOMS, count=3, width=24, height=16) for room in range(ROOMS)]
+START = [initial_gaussians(views, settings=SETTINGS, rng=np.random.default_rng(0)) for views in VIEWS]
+
+
+def run(start=START, views=VIEWS, devices=1, settings=SETTINGS, **kwargs):
+    where = [jax.devices()[0]] * devices
+    return fit_scene(start, views.__getitem__, settings=settings, raster=RASTER, key=jax.random.key(0), devices=where, **kwargs)
+
+
+def raw(gaussians):
+    return [leaf.tobytes() for leaf in jax.tree.leaves(gaussians)]
+
+
+@pytest.fixture(scope="module")
+def once():
+    return run()
+
+
+def test_scheduling_changes_no_byte(once):
+    assert raw(run(devices=2).gaussians) == raw(once.gaussians)
+
+
+def test_every_room_is_fitted_and_reports_its_curve(once):
+    for before, after in zip(START, once.gaussians):
+        assert before.means.shape == after.means.shape and (before.sh != after.sh).any()
+    assert [(point.room, point.step) for point in once.history] == [(room, step) for room in range(ROOMS) for step in (0, 4)]
+    assert once.stopped == ()
+
+
+def test_neighbours_matter_and_only_through_the_views_that_see_them(once):
+    alone = [[dataclasses.replace(view, sees=()) for view in views] for views in VIEWS]
+    without = run(views=alone)
+    assert raw(without.gaussians[1]) != raw(once.gaussians[1])
+    single = run(start=[START[0], *[jax.tree.map(lambda x: x[:0], g) for g in START[1:]]], views=[alone[0], [], []])
+    assert raw(single.gaussians[0]) == raw(without.gaussians[0])
+
+
+def test_a_killed_run_resumes_and_ends_in_the_same_bytes(once):
+    kept, steps = {}, []
+
+    def store(round_, room, arrays):
+        if round_ == 1 and room == 1:
+            raise KeyboardInterrupt
+        kept[round_, room] = arrays
+
+    with pytest.raises(KeyboardInterrupt):
+        run(store=store)
+    assert {(0, room) for room in range(ROOMS)} <= kept.keys()
+    resumed = run(
+        load=lambda round_, room: kept.get((round_, room)), progress=lambda done, total, info: steps.append((done, total, info))
+    )
+    assert raw(resumed.gaussians) == raw(once.gaussians)
+    assert steps[-1][:2] == (ROOMS * 4, ROOMS * 4) and sum(bool(info) for *_, info in steps) == 2 * (6 - len(kept))
+
+
+def test_a_state_survives_its_arrays():
+    state = dataclasses.replace(initial_state(START[0]), stopped="why")
+    again = from_arrays(to_arrays(state))
+    assert raw(again.train) == raw(state.train) and again.stopped == "why" and again.history == ()
+    with pytest.raises(ValueError, match="mu.sh"):
+        from_arrays({name: value for name, value in to_arrays(state).items() if name != "mu.sh"})
+
+
+def test_an_error_of_a_room_reaches_the_caller():
+    def views(room):
+        if room == 2:
+            raise OSError("views of room 2 are gone")
+        return VIEWS[room]
+
+    with pytest.raises(OSError, match="room 2"):
+        fit_scene(START, views, settings=SETTINGS, raster=RASTER, key=jax.random.key(0), devices=[jax.devices()[0]])
+
+
+def test_a_room_that_stops_keeps_its_last_good_state_and_the_others_go_on():
+    bad = [dataclasses.replace(view, depth=np.full_like(view.depth, np.inf)) for view in VIEWS[1]]
+    result = run(views=[VIEWS[0], bad, VIEWS[2]])
+    assert len(result.stopped) == 1 and "room 1, step 0" in result.stopped[0]
+    assert raw(result.gaussians[1]) == raw(jax.tree.map(np.asarray, START[1])) and (result.gaussians[0].sh != START[0].sh).any()
