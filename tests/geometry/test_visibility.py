@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tests.geometry.plans import l_shaped, one_room, random_plan, two_rooms
 from tests.geometry.things import box
-from wm.geometry.aim import VALUES, choose_views
+from wm.geometry.aim import VALUES, Aims, choose_aims
 from wm.geometry.camera import camera_center, make_camera, unproject_depth
 from wm.geometry.footprint import interior_polygon, portals
 from wm.geometry.mesh import assemble_scene
@@ -139,11 +139,9 @@ def test_surface_points_stand_for_equal_areas_and_skip_the_skin(count):
 def test_views_are_chosen_for_what_they_add():
     mesh = build_structure(one_room())
     scene, points = build_ray_scene(mesh), surface_points(mesh, 1000)
-    left = view_of([2.5, 2, 1.6], [0, 2, 1.6]).camera
-    right = view_of([2.5, 2, 1.6], [5, 2, 1.6]).camera
-    start = np.zeros(1000, int)
-    chosen = choose_views(scene, points, [[left, right], [left, right]], start)
-    assert {id(camera) for camera in chosen} == {id(left), id(right)}
-    seen = times_seen(scene, points, [left])
-    assert choose_views(scene, points, [[left, right]], start + 3 * seen)[0] is right
+    both = Aims(eyes=np.tile([[2.5, 2.0, 1.6]], (2, 1)), looks=np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]))
+    start, half_extent = np.zeros(1000, int), (64 / 36 * np.tan(np.pi / 6), np.tan(np.pi / 6))
+    assert sorted(choose_aims(scene, points, [both, both], start, half_extent=half_extent)) == [0, 1]
+    seen = times_seen(scene, points, [view_of([2.5, 2, 1.6], [0, 2, 1.6]).camera])
+    assert choose_aims(scene, points, [both], start + 3 * seen, half_extent=half_extent) == [1]
     assert (np.diff(VALUES) < 0).all()

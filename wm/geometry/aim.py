@@ -6,51 +6,72 @@ Greedy: again and again the position and view that add most. A surface point is 
 The sum is submodular, so the greedy choice reaches at least half of the best possible (Fisher, Nemhauser and Wolsey, 1978).
 """
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Bool, Int
+from jaxtyping import Bool, Float, Int
 
-from wm.geometry.camera import camera_center
+from wm.geometry.camera import look_rotations
 from wm.geometry.raycast import RayScene
-from wm.geometry.surface_points import SurfacePoints, framed, in_sight
-from wm.types import Camera
+from wm.geometry.surface_points import SurfacePoints, in_sight
 
 VALUES = np.array([1.0, 0.3, 0.15, 0.02])
 """Of the first, second, third and any further view of a point."""
 
 
-def choose_views(
-    scene: RayScene, points: SurfacePoints, options: Sequence[Sequence[Camera]], times: Int[np.ndarray, "p"]
-) -> list[Camera]:
-    """One camera for each position, in the positions' order.
+@dataclasses.dataclass(frozen=True, eq=False)
+class Aims:
+    """Views to choose from, of which one is wanted."""
+
+    eyes: np.ndarray  # [k, 3] float64
+    looks: np.ndarray  # [k, 3] float64 directions, not unit
+
+
+def choose_aims(
+    scene: RayScene,
+    points: SurfacePoints,
+    options: Sequence[Aims],
+    times: Int[np.ndarray, "p"],
+    *,
+    half_extent: tuple[float, float],
+) -> list[int]:
+    """For each set of options the index of the one picked.
 
     Args:
         points: what is to be seen.
-        options: for each position the cameras to choose from, at least one.
+        options: at least one view in each.
         times: how often other views already see each point.
+        half_extent: tangents of half the fields of view, across and down.
     """
-    masks = [_masks(scene, points, cameras) for cameras in options]
+    masks = [_masks(scene, points, aims, half_extent) for aims in options]
     times = times.copy()
-    chosen = np.full(len(options), -1)
+    chosen = [-1] * len(options)
     for _ in options:
-        worth = VALUES[np.minimum(times, len(VALUES) - 1)]
-        gains = [float(np.max(mask @ worth)) if pick < 0 else -1.0 for mask, pick in zip(masks, chosen)]
-        position = int(np.argmax(gains))
-        chosen[position] = np.argmax(masks[position] @ worth)
-        times += masks[position][chosen[position]]
-    return [cameras[pick] for cameras, pick in zip(options, chosen)]
+        worth = VALUES[np.minimum(times, len(VALUES) - 1)].astype(np.float32)
+        gains = [mask @ worth if pick < 0 else np.full(1, -1.0) for mask, pick in zip(masks, chosen)]
+        position = int(np.argmax([gain.max() for gain in gains]))
+        chosen[position] = int(np.argmax(gains[position]))
+        times += masks[position][chosen[position]] > 0
+    return chosen
 
 
-def _masks(scene: RayScene, points: SurfacePoints, cameras: Sequence[Camera]) -> Bool[np.ndarray, "cameras p"]:
-    """Which camera sees which point; cameras at one place share their shadow rays."""
-    inside = np.stack([framed(camera, points) for camera in cameras])
-    centres = np.stack([camera_center(camera) for camera in cameras])
-    _, place = np.unique(np.round(centres, 9), axis=0, return_inverse=True)
-    for k in range(place.max() + 1):
+def _masks(
+    scene: RayScene, points: SurfacePoints, aims: Aims, half_extent: tuple[float, float]
+) -> Float[np.ndarray, "k p"]:
+    """1 where a view sees a point, else 0 (floats, for the sums are matrix products); views at one place share shadow rays."""
+    places, place = np.unique(aims.eyes, axis=0, return_inverse=True)
+    seen = np.zeros((len(aims.eyes), len(points.face)), np.float32)
+    everything = np.arange(len(points.face))
+    for k, eye in enumerate(places):
+        clear = np.flatnonzero(in_sight(scene, points, everything, eye))
         own = np.flatnonzero(place.reshape(-1) == k)
-        which = np.flatnonzero(inside[own].any(axis=0))
-        clear = np.zeros(len(points.face), bool)
-        clear[which] = in_sight(scene, points, which, centres[own[0]])
-        inside[own] &= clear
-    return inside
+        seen[np.ix_(own, clear)] = _framed(aims.looks[own], points.position[clear] - eye, half_extent)
+    return seen
+
+
+def _framed(
+    looks: Float[np.ndarray, "k 3"], offsets: Float[np.ndarray, "c 3"], half_extent: tuple[float, float]
+) -> Bool[np.ndarray, "k c"]:
+    x, y, z = (look_rotations(looks).reshape(-1, 3) @ offsets.T).reshape(len(looks), 3, -1).transpose(1, 0, 2)
+    return (np.abs(x) < half_extent[0] * z) & (np.abs(y) < half_extent[1] * z)

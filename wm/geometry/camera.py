@@ -38,19 +38,25 @@ def make_camera(
     distance = np.linalg.norm(forward)
     if not np.isfinite(distance) or distance == 0.0:
         raise ValueError(f"a camera needs finite, different eye and target, not eye {eye}, target {target}")
-    forward = forward / distance
-    right = np.array([forward[1], -forward[0], 0.0])  # forward x up
-    sine = np.linalg.norm(right)
-    right = right / sine if sine > _PARALLEL else np.array([1.0, 0.0, 0.0])
-    right = right - forward * (right @ forward)
-    right = right / np.linalg.norm(right)
-    rotation = np.stack([right, np.cross(forward, right), forward])
+    rotation = look_rotations(forward[None])[0]
     T_cam_world = np.eye(4)
     T_cam_world[:3, :3] = rotation
     T_cam_world[:3, 3] = -rotation @ eye
     focal = height / (2.0 * np.tan(np.radians(fov_deg) / 2.0))
     principal = np.array([width / 2.0, height / 2.0])
     return Camera(T_cam_world=T_cam_world, focal=np.array([focal, focal]), principal=principal, width=width, height=height)
+
+
+def look_rotations(looks: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3 3"]:
+    """World-to-camera rotations of level cameras that look along the given directions (not 0, need not be unit)."""
+    forward = looks / np.linalg.norm(looks, axis=1, keepdims=True)
+    right = np.stack([forward[:, 1], -forward[:, 0], np.zeros(len(looks))], axis=1)  # forward x up
+    sine = np.linalg.norm(right, axis=1, keepdims=True)
+    vertical = sine <= _PARALLEL
+    right = np.where(vertical, [[1.0, 0.0, 0.0]], right / np.where(vertical, 1.0, sine))
+    right = right - forward * np.sum(right * forward, axis=1, keepdims=True)
+    right = right / np.linalg.norm(right, axis=1, keepdims=True)
+    return np.stack([right, np.cross(forward, right), forward], axis=1)
 
 
 def camera_rotation(camera: Camera) -> Float[np.ndarray, "3 3"]:

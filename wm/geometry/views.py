@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from jaxtyping import Float
 
-from wm.geometry.aim import choose_views
+from wm.geometry.aim import Aims, choose_aims
 from wm.geometry.air import RoomAir, candidates, free, look_point, openness, room_air
 from wm.geometry.camera import camera_center, camera_rotation, make_camera
 from wm.geometry.footprint import Portal, portals
@@ -126,67 +126,80 @@ def _room_cameras(
     bootstrap = settle(air, _at(sides, air.eye_height), lambda spot: np.append(look_point(air, spot[:2]), spot[2]), settings)
     doors = [portal for portal in portals(plan) if portal.kind != "window" and air.index in portal.rooms and settings.doorway]
     doorway = [camera for camera in (door_camera(air, portal, settings, step=0.0) for portal in doors) if camera is not None]
-    perimeter, overhead = _perimeter(air, sides[0], bootstrap, settings), _overhead(air, sides[0], settings)
-    chosen = choose_views(air.scene, points, perimeter + overhead, times_seen(air.scene, points, bootstrap + doorway))
+    perimeter = _distinct(_options(air, sides[0], settings, "perimeter"), bootstrap, settings)
+    options = [*perimeter, *_options(air, sides[0], settings, "overhead")]
+    half_height = np.tan(np.radians(settings.fov) / 2)
+    picks = choose_aims(
+        air.scene,
+        points,
+        options,
+        times_seen(air.scene, points, bootstrap + doorway),
+        half_extent=(half_height * settings.width / settings.height, half_height),
+    )
+    aimed = [
+        make_view_camera(aims.eyes[pick], aims.eyes[pick] + aims.looks[pick], settings) for aims, pick in zip(options, picks)
+    ]
     return {
         "bootstrap": bootstrap,
-        "perimeter": chosen[: len(perimeter)],
-        "overhead": chosen[len(perimeter) :],
+        "perimeter": aimed[: len(perimeter)],
+        "overhead": aimed[len(perimeter) :],
         "doorway": doorway,
     }
 
 
-def _perimeter(air: RoomAir, start: np.ndarray, bootstrap: list[Camera], settings: CameraSettings) -> list[list[Camera]]:
-    """For each perimeter position the views to choose from."""
-    wanted = _at(walk_line(air, start, settings.perimeter, phase=0.5), air.eye_height)
-    settled = settle(air, wanted, lambda spot: np.append(look_point(air, spot[:2]), spot[2]), settings)
-    looks = np.array([camera_rotation(camera)[2] for camera in bootstrap])
-    limit = np.cos(np.radians(settings.prune_angle))
+def _options(air: RoomAir, start: np.ndarray, settings: CameraSettings, kind: str) -> list[Aims]:
+    """For each position along the walls the views to choose from: some places, up to three headings, every tilt."""
+    count, phase, height, drop, tilts = {
+        "perimeter": (settings.perimeter, 0.5, air.eye_height, 0.0, _TILTS),
+        "overhead": (settings.overhead, 0.0, air.high, air.high - 0.3, _OVERHEAD_TILTS),
+    }[kind]
+    wanted = _at(walk_line(air, start, count, phase), height)
+    settled = settle(air, wanted, lambda spot: np.append(look_point(air, spot[:2]), spot[2] - drop), settings)
+    places = [_elsewhere(air, position, camera_center(camera)) for position, camera in zip(wanted, settled)]
+    eyes = np.repeat(np.concatenate([*places, np.zeros((0, 3))]), 3, axis=0)
+    if not len(eyes):
+        return []
+    ahead = np.array([look_point(air, eye[:2]) - eye[:2] for eye in eyes[::3]])
+    headings = np.repeat(np.arctan2(ahead[:, 1], ahead[:, 0]), 3) + np.tile(np.radians([0.0, -TURN, TURN]), len(ahead))
+    levels = np.column_stack([np.cos(headings), np.sin(headings)])
+    typical = np.append(levels, np.full((len(levels), 1), np.tan(np.radians(np.mean(tilts)))), axis=1)
+    depths = openness(air.scene, [make_view_camera(eye, eye + look, settings) for eye, look in zip(eyes, typical)])
+    usable = (depths >= depth_wanted(air)) | (np.arange(len(eyes)) % 3 == 0)
+    owner = np.repeat(np.arange(len(places)), [3 * len(place) for place in places])
+    rises = np.tan(np.radians(tilts))
     options = []
-    for position, camera in zip(wanted, settled):
-        views = [view for place in _elsewhere(air, position, camera, settings) for view in _around(air, place, _TILTS, settings)]
-        distinct = [view for view in views if np.all(looks @ camera_rotation(view)[2] < limit)]
-        if distinct:
-            options.append(distinct)
+    for k in range(len(places)):
+        own = np.flatnonzero(usable & (owner == k))
+        looks = np.column_stack([np.repeat(levels[own], len(rises), axis=0), np.tile(rises, len(own))])
+        options.append(Aims(eyes=np.repeat(eyes[own], len(rises), axis=0), looks=looks))
     return options
 
 
-def _overhead(air: RoomAir, start: np.ndarray, settings: CameraSettings) -> list[list[Camera]]:
-    """For each overhead position the views to choose from."""
-    wanted = _at(walk_line(air, start, settings.overhead, phase=0.0), air.high)
-    settled = settle(air, wanted, lambda spot: np.append(look_point(air, spot[:2]), 0.3), settings)
-    options = []
-    for position, camera in zip(wanted, settled):
-        places = _elsewhere(air, position, camera, settings)
-        options.append([view for place in places for view in [place, *_around(air, place, _OVERHEAD_TILTS, settings)]])
-    return options
+def _distinct(options: list[Aims], bootstrap: list[Camera], settings: CameraSettings) -> list[Aims]:
+    """The options without those that look where a bootstrap view looks."""
+    taken = np.array([camera_rotation(camera)[2] for camera in bootstrap])
+    kept = []
+    for aims in options:
+        cosines = aims.looks / np.linalg.norm(aims.looks, axis=1, keepdims=True) @ taken.T
+        distinct = np.all(cosines < np.cos(np.radians(settings.prune_angle)), axis=1)
+        if distinct.any():
+            kept.append(Aims(eyes=aims.eyes[distinct], looks=aims.looks[distinct]))
+    return kept
 
 
-def _elsewhere(air: RoomAir, wanted: np.ndarray, camera: Camera, settings: CameraSettings) -> list[Camera]:
-    """The camera, and where furniture keeps it from its wanted position, others within reach that it may stand at instead."""
-    if np.linalg.norm(camera_center(camera) - wanted) < _APART:
-        return [camera]
+def _elsewhere(air: RoomAir, wanted: np.ndarray, settled: np.ndarray) -> Float[np.ndarray, "n 3"]:
+    """Where the camera settled and, if furniture kept it from its wanted position, other free spots within reach of that."""
+    if np.linalg.norm(settled - wanted) < _APART:
+        return settled[None]
     spots = candidates(air, wanted)
     spots = spots[np.linalg.norm(spots - wanted, axis=1) < _REACH]
-    chosen = [camera_center(camera)]
+    chosen = [settled]
     while len(chosen) < _PLACES and len(spots):
         gap = np.min([np.linalg.norm(spots - spot, axis=1) for spot in chosen], axis=0)
         if gap.max() < _APART:
             break
         chosen.append(spots[np.argmax(gap)])
-    lower = camera_rotation(camera)[2][2]
-    return [make_view_camera(s, np.append(look_point(air, s[:2]), s[2] + lower), settings) for s in chosen]
-
-
-def _around(air: RoomAir, camera: Camera, tilts: tuple[float, ...], settings: CameraSettings) -> list[Camera]:
-    """The camera's heading, and TURN to either side of it where that sees far enough, each with every tilt."""
-    eye, look = camera_center(camera), camera_rotation(camera)[2]
-    headings = np.arctan2(look[1], look[0]) + np.radians([0.0, -TURN, TURN])
-    levels = np.column_stack([np.cos(headings), np.sin(headings), np.full(3, np.tan(np.radians(np.mean(tilts))))])
-    depths = openness(air.scene, [make_view_camera(eye, eye + level, settings) for level in levels])
-    kept = levels[(depths >= depth_wanted(air)) | (np.arange(3) == 0)]
-    rises = np.tan(np.radians(tilts))
-    return [make_view_camera(eye, eye + np.append(level[:2], rise), settings) for level in kept for rise in rises]
+    return np.array(chosen)
 
 
 def _at(points: Float[np.ndarray, "n 2"], height: float) -> Float[np.ndarray, "n 3"]:
