@@ -41,7 +41,8 @@ def encode_mask(mask: Bool[np.ndarray, "h w"]) -> bytes:
 
 def decode_mask(data: bytes) -> Bool[np.ndarray, "h w"]:
     with Image.open(io.BytesIO(data)) as image:
-        return np.asarray(image.convert("1")).astype(bool)
+        # Compared, not cast: Pillow's own booleans are bytes of 255, which XLA takes at their word.
+        return np.asarray(image.convert("L")) > 127
 
 
 def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:

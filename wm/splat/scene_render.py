@@ -1,6 +1,7 @@
 """Renders of a scene whose gaussians are kept by room: only the rooms that a camera may see are projected."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import jax
 import numpy as np
@@ -18,8 +19,8 @@ _COLUMNS = 1.25
 class SceneRenderer:
     """Renders views of many rooms; padded sizes only grow, so a walk through a scene compiles a handful of times."""
 
-    def __init__(self, rooms: Sequence[Gaussians], raster: RasterSettings = RasterSettings(), *, device: jax.Device | None = None):
-        """`rooms` holds the gaussians of each room, on the host; `device` renders (JAX's default if None)."""
+    def __init__(self, rooms: Sequence[Gaussians], raster: RasterSettings, *, device: Any = None):
+        """Args: `rooms`, the gaussians of each room, on the host; `device`, the jax.Device that renders, JAX's default if None."""
         largest = max((len(room.opacity_logits) for room in rooms), default=0)
         self._device = device or jax.devices()[0]
         self._rooms = [jax.device_put(pad_gaussians(room, largest), self._device) if largest else None for room in rooms]

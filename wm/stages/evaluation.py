@@ -11,7 +11,8 @@ import numpy as np
 from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, coverage, navigability, visible_rooms
-from wm.splat.metrics import depth_error, normal_error, one_surface, psnr, reprojection_error
+from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
+from wm.splat.reprojection import overlap, reprojection_error, shared_pixels
 from wm.splat.scene_render import SceneRenderer
 from wm.splat.ssim import ssim
 from wm.stages.job import Job
@@ -31,7 +32,6 @@ class Seen:
     view: View
     render: Render
     gbuffer: GBuffer
-    scaffold_depth: np.ndarray  # [h, w] metres; 0 where there is none, or a window
 
 
 def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, image: ImageBackend) -> dict:
@@ -50,13 +50,11 @@ def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, i
 def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
     """A view of the splats and of the scaffold."""
     gbuffer = cast(scene.rays, view.camera)
-    kind = np.where(gbuffer.hit, scene.mesh.face_kind[gbuffer.face], -1)
     sees = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
     return Seen(
         view=view,
         render=renderer.render(view.camera, [int(room) for room in sees], gbuffer.depth),
         gbuffer=gbuffer,
-        scaffold_depth=np.where(kind == SurfaceKind.PANE, np.float32(0), gbuffer.depth),
     )
 
 
@@ -106,8 +104,8 @@ def _photometry(rgb: np.ndarray, world: np.ndarray) -> dict[str, float]:
 
 
 def _alignment(scene: Scene, seen: Seen) -> dict[str, float]:
-    depth = depth_error(seen.render.depth, seen.scaffold_depth)
-    surfaces = one_surface(_surface_of(scene, seen.gbuffer), seen.gbuffer.normal) & (seen.scaffold_depth > 0)
+    depth = depth_error(seen.render.depth, seen.gbuffer.depth)
+    surfaces = one_surface(_surface_of(scene, seen.gbuffer), seen.gbuffer.normal) & (seen.gbuffer.depth > 0)
     normal = normal_error(seen.render.depth, seen.view.camera, seen.gbuffer.normal, surfaces)
     return {"m_mae": depth.mae, "m_rmse": depth.rmse, "n_cos": normal.cosine, "n_ang_deg": normal.angle}
 
@@ -121,12 +119,14 @@ def _surface_of(scene: Scene, gbuffer: GBuffer) -> np.ndarray:
 
 
 def _reprojection(seen: Sequence[Seen], min_overlap: float) -> list[dict[str, float]]:
-    """Every ordered pair of a room's views that share enough surface."""
+    """Both ways of every pair of a room's views that share enough surface."""
     rows = []
-    for a, b in itertools.permutations(seen, 2):
-        moved, into = (a.render.depth, a.view.camera, a.scaffold_depth), (b.render.depth, b.view.camera, b.scaffold_depth)
-        error = reprojection_error(*moved, *into, min_overlap=min_overlap)
-        if error is not None:
+    for a, b in itertools.combinations(seen, 2):
+        if overlap(a.gbuffer.depth, a.view.camera, b.gbuffer.depth, b.view.camera) < min_overlap:
+            continue
+        for i, j in ((a, b), (b, a)):
+            mask = shared_pixels(i.gbuffer.depth, i.view.camera, j.gbuffer.depth, j.view.camera)
+            error = reprojection_error(i.render.depth, i.view.camera, j.render.depth, j.view.camera, mask)
             rows.append({"reproj_mae_norm": error.mae_norm, "reproj_absrel": error.absrel})
     return rows
 

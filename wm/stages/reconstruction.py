@@ -18,7 +18,7 @@ from wm.stages.job import Job
 from wm.stages.painting import Painted
 from wm.stages.scene import Scene
 from wm.synth.backends import ImageBackend
-from wm.types import Gaussians, GBuffer, SurfaceKind, View
+from wm.types import Gaussians, GBuffer, View
 
 SPLATS, BY_ROOM, HISTORY = "splats.ply", "stages/splats.npz", "stages/history.json"
 CURVE_VIEWS = 2
@@ -52,14 +52,13 @@ def reconstruct(job: Job, scene: Scene, painted: Painted, image: ImageBackend) -
 
 
 def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, gbuffer: GBuffer) -> TrainingView:
-    """A painted or true image with the scaffold behind it. Windows have no depth: what is behind the glass is far away."""
+    """A painted or true image with the scaffold behind it. A window's depth is that of its pane, which closes the scene."""
     mesh = scene.mesh
-    kind = np.where(gbuffer.hit, mesh.face_kind[gbuffer.face], -1)
     sees = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
     return TrainingView(
         camera=view.camera,
         rgb=rgb,
-        depth=np.where(kind == SurfaceKind.PANE, np.float32(0), gbuffer.depth),
+        depth=gbuffer.depth,
         mask=mask,
         room=view.room,
         own=gbuffer.hit & (mesh.face_room[gbuffer.face] == view.room),

@@ -93,7 +93,7 @@ def _sheet_row(scene: Scene, renderer: SceneRenderer, painted: Painted, view: Vi
         generated=stored.rgb,
         splats=to_bytes(seen.render.rgb),
         splat_depth=seen.render.depth,
-        scaffold_depth=seen.scaffold_depth,
+        scaffold_depth=seen.gbuffer.depth,
     )
 
 
