@@ -1,6 +1,6 @@
 """Iterations and processor time of the propose - validate - correct loop over many seeds; writes results.csv and prints the table.
 
-    python experiments/layout_statistics/measure.py --seeds 200
+python experiments/layout_statistics/measure.py --seeds 200
 """
 
 import argparse

@@ -59,9 +59,7 @@ def node_with_bars(
     return rooms
 
 
-def _node_first(
-    cores: Sequence[int], cells: int, spaces: list[Space], building: Building, rng: np.random.Generator
-) -> list[int]:
+def _node_first(cores: Sequence[int], cells: int, spaces: list[Space], building: Building, rng: np.random.Generator) -> list[int]:
     """The cores with the node in front: a hall for one or two bars, a gallery or corridor where it has to be long."""
     if cells <= 2 * BAR_CELLS + 2:
         return list(cores)
