@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from tests.geometry.plans import checked, l_shaped, one_room, opening, random_plan, rectangle, two_rooms, window
 from wm.geometry import FloorPlan, Room, build_ray_scene, build_structure, cast_rays, face_normals, interior_polygon, portals
+from wm.geometry.slivers import heights
 from wm.geometry.structure import PANE, SLAB
 from wm.types import OUTSIDE, Mesh, SurfaceKind
 
@@ -65,6 +66,7 @@ def check_laws(plan: FloorPlan, mesh: Mesh) -> None:
     """What holds of every structure."""
     assert_watertight(mesh)
     assert volume(mesh) > 0  # so normals point out of the solid, into free air
+    assert heights(mesh.vertices, mesh.faces).min() > 1e-9
     assert mesh.faces.min() == 0 and mesh.faces.max() == len(mesh.vertices) - 1
     np.testing.assert_array_equal(mesh.face_room == OUTSIDE, mesh.face_kind == SurfaceKind.EXTERIOR)
     np.testing.assert_array_equal(mesh.face_object, OUTSIDE)
@@ -209,7 +211,7 @@ def leaks(plan: FloorPlan, rays: int, seed: int) -> int:
         directions = rng.normal(size=(len(part), 3)).astype(np.float32)
         room = rng.integers(len(plan.rooms), size=len(part))
         centres = np.array([_centre(plan, k) for k in range(len(plan.rooms))])
-        origins = (centres[room] + rng.uniform(-0.2, 0.2, (len(part), 3))).astype(np.float32)
+        origins = (centres[room] + rng.uniform(-0.15, 0.15, (len(part), 3))).astype(np.float32)
         hits = cast_rays(scene, origins, directions)
         lost += int((~hits.hit).sum()) + int((mesh.face_kind[hits.face[hits.hit]] == SurfaceKind.EXTERIOR).sum())
     return lost

@@ -19,7 +19,6 @@ from wm.types import OUTSIDE
 
 _MITRE = 4.0  # wall thicknesses beyond a corner at which a mitre is cut off
 _DUST = 1e-6  # square metres below which a part of an interior is rounding error
-DECIMALS = 9  # coordinates are rounded here, so that 0.15 + 5 - 0.15 is 5
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -77,8 +76,7 @@ def _interior(thin: Polygon, walls: tuple[Wall, ...]) -> Polygon | None:
     if len(parts) != 1 or len(parts[0].interiors):
         return None
     clean = shapely.simplify(parts[0], 1e-7)
-    ring = np.round(np.asarray(clean.exterior.coords)[:-1], DECIMALS)
-    return shapely.orient_polygons(Polygon(ring))
+    return shapely.orient_polygons(clean)
 
 
 def _band(walls: tuple[Wall, ...], k: int) -> np.ndarray:
@@ -123,7 +121,7 @@ def _portal(opening: Opening, place: Place) -> Portal:
         rooms, centre = (place.room, behind.room), -place.gap / 2
         half_depths = (wall.thickness - centre, wall.thickness - centre)
     along = np.array([[place.low], [place.high]])
-    ends = np.round(wall.start + centre * wall.normal + along * wall.direction, DECIMALS)
+    ends = wall.start + centre * wall.normal + along * wall.direction
     normal = -wall.normal
     if behind is not None and rooms[0] > rooms[1]:
         rooms, ends, normal = (rooms[1], rooms[0]), ends[::-1], -normal

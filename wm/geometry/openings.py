@@ -49,7 +49,9 @@ def place_openings(
             place = _place(index, k, opening, walls[index])
             if isinstance(place, Place):
                 places.append(place)
-            elif place[0] != "door_exterior" or unknown is None or unknown.disjoint(shapely.LineString(opening_ends(opening))):
+                continue
+            doubtful = unknown is not None and shapely.intersects(unknown, shapely.LineString(opening_ends(opening)))
+            if place[0] != "door_exterior" or not doubtful:
                 violations.append(Violation(room.id, *place))
     kept, clashes = _once(plan, places)
     return kept, (*violations, *clashes)
