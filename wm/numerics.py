@@ -15,9 +15,9 @@ def safe_div(numerator: Float[Array, "..."], denominator: Float[Array, "..."]) -
 
 
 def safe_sqrt(x: Float[Array, "..."]) -> Float[Array, "..."]:
-    """sqrt(x), and 0 with zero gradient where x <= 0."""
-    positive = x > 0
-    return jnp.where(positive, jnp.sqrt(jnp.where(positive, x, 1.0)), 0.0)
+    """sqrt(x), and 0 with zero gradient where x <= 0; NaN stays NaN."""
+    zero = x <= 0
+    return jnp.where(zero, 0.0, jnp.sqrt(jnp.where(zero, 1.0, x)))
 
 
 def safe_norm(x: Float[Array, "*batch d"]) -> Float[Array, "*batch"]:

@@ -18,11 +18,7 @@ def render_reference(
     gaussians: Gaussians,
     camera: Camera,
     *,
-    background: Float[Array, "3"]
-    | Float[Array, "h w 3"]
-    | Float[np.ndarray, "3"]
-    | Float[np.ndarray, "h w 3"]
-    | None = None,
+    background: Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"] | None = None,
     settings: RasterSettings = RasterSettings(),
 ) -> Render:
     """What `render` promises, in float64; call it, and differentiate it, under `with jax.enable_x64(True)`.
@@ -32,8 +28,7 @@ def render_reference(
     """
     if not jax.config.jax_enable_x64:
         raise RuntimeError("render_reference computes in float64: call it under `with jax.enable_x64(True)`")
-    as64 = lambda tree: jax.tree.map(lambda x: jnp.asarray(x, jnp.float64), tree)  # noqa: E731
-    gaussians, camera = as64(gaussians), as64(camera)
+    gaussians, camera = jax.tree.map(lambda x: jnp.asarray(x, jnp.float64), (gaussians, camera))
     R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
     p = gaussians.means @ R.T + t
     front = p[:, 2] > settings.near

@@ -1,0 +1,95 @@
+"""Small scenes of gaussians, and the comparison with the float64 twin, for the tests of the splat floor."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from wm.schema import RasterSettings
+from wm.splat import project, render
+from wm.splat._reference import render_reference
+from wm.types import Camera, Gaussians, Render
+
+SMOOTH = RasterSettings(alpha_min=1e-7, transmittance_min=0.0)
+"""Cuts so small that crossing one cannot be seen: what is left is smooth as long as opacities stay below alpha_max."""
+
+
+def camera(width=21, height=13, *, focal=18.0, seed=None) -> Camera:
+    """At the origin, looking along z, a little off centre; turned and moved a little with a seed."""
+    T = np.eye(4)
+    if seed is not None:
+        rng = np.random.default_rng(seed)
+        T[:3, :3] = _rotation(rng.normal(size=3) * 0.1)
+        T[:3, 3] = rng.normal(size=3) * 0.1
+    principal = np.array([width / 2 + 0.7, height / 2 - 0.4])
+    return Camera(T_cam_world=T, focal=np.array([focal, focal * 1.1]), principal=principal, width=width, height=height)
+
+
+def _rotation(axis):
+    angle = np.linalg.norm(axis)
+    x, y, z = axis / angle
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
+
+
+def cloud(n=24, *, seed=0, degree=0, opaque=2.0) -> Gaussians:
+    """n gaussians in front of the camera, float64 NumPy; opacity logits in [-2, opaque]."""
+    rng = np.random.default_rng([seed, n, degree])
+    return Gaussians(
+        means=np.concatenate([rng.uniform(-1.2, 1.2, (n, 2)), rng.uniform(1.0, 4.0, (n, 1))], 1),
+        quats=rng.normal(size=(n, 4)),
+        log_scales=rng.normal(-1.8, 0.5, (n, 3)),
+        opacity_logits=rng.uniform(-2.0, opaque, n),
+        sh=rng.normal(size=(n, (degree + 1) ** 2, 3)) * 0.3,
+    )
+
+
+def to_float32(tree):
+    return jax.tree.map(lambda x: jnp.asarray(x, jnp.float32), tree)
+
+
+def to_float64(tree):
+    return jax.tree.map(lambda x: np.asarray(x, np.float64), tree)
+
+
+jit_project = jax.jit(project, static_argnames="settings")
+jit_reference = jax.jit(render_reference, static_argnames="settings")
+
+
+def cotangent(view: Camera, seed=1) -> Render:
+    rng = np.random.default_rng(seed)
+    shape = (view.height, view.width)
+    return Render(rgb=rng.normal(size=(*shape, 3)), depth=rng.normal(size=shape), alpha=rng.normal(size=shape))
+
+
+def dot(image: Render, weights: Render):
+    return sum((a * b).sum() for a, b in zip(jax.tree.leaves(image), jax.tree.leaves(weights)))
+
+
+def loss(renderer, weights: Render, view: Camera, settings, gaussians, T_cam_world, background):
+    moved = Camera(T_cam_world=T_cam_world, focal=view.focal, principal=view.principal, width=view.width, height=view.height)
+    return dot(renderer(gaussians, moved, background=background, settings=settings), weights)
+
+
+def gradients(gaussians: Gaussians, view: Camera, background, settings=SMOOTH, seed=1):
+    """(fast, exact) gradients by (gaussians, pose, background) under one random cotangent."""
+    arguments = (gaussians, view.T_cam_world, background)
+    weights = cotangent(view, seed)
+    by_all = lambda renderer: jax.grad(lambda g, T, b: loss(renderer, weights, view, settings, g, T, b), (0, 1, 2))  # noqa: E731
+    found = by_all(render)(*to_float32(arguments))
+    with jax.enable_x64(True):
+        exact = by_all(jit_reference)(*to_float64(arguments))
+    return to_float64(found), to_float64(exact)
+
+
+def images(gaussians: Gaussians, view: Camera, background=None, settings=RasterSettings()):  # noqa: B008
+    """(fast, exact) renders as float64 NumPy."""
+    found = render(to_float32(gaussians), view, background=background, settings=settings)
+    with jax.enable_x64(True):
+        exact = jit_reference(to_float64(gaussians), to_float64(view), background=background, settings=settings)
+    return to_float64(found), to_float64(exact)
+
+
+def worst(found, exact) -> float:
+    """Largest difference of any leaf, relative to that leaf's largest exact entry."""
+    pairs = zip(jax.tree.leaves(found), jax.tree.leaves(exact))
+    return max((np.abs(a - b).max() / max(np.abs(b).max(), 1e-6) for a, b in pairs if a.size), default=0.0)
