@@ -12,7 +12,7 @@ from wm.synth.procedural.hangings import wall_piece
 from wm.synth.procedural.job import Job, local
 from wm.synth.procedural.layout import Placed
 from wm.synth.procedural.site import Site
-from wm.synth.procedural.wet_groups import bathing, cooking
+from wm.synth.procedural.wet_groups import bathing, cooking, island
 
 
 def bedroom(job: Job) -> None:
@@ -35,10 +35,8 @@ def dining(job: Job) -> None:
 def kitchen(job: Job) -> None:
     cooking(job)
     if job.layout.site.polygon.area > 9:
-        island = job.chance(0.45) and job.dressed(
-            job.layout.on_floor(job.piece("kitchen island"), job.rng, job.layout.site.centre, yaw=0.0, radius=0.4)
-        )
-        if not island:
+        placed = island(job) if job.chance(0.45) else None
+        if placed is None:
             dining_group(job, kitchen=True)
 
 

@@ -69,19 +69,32 @@ def kitchen_run(job: Job, wall: int, low: float, high: float) -> list[Placed]:
 
 
 def bathing(job: Job) -> Placed | None:
-    """Bathtub or shower, washbasin under a mirror, toilet, towel rail, mat."""
+    """Bathtub (a shower where none fits, both in a large room), toilet, washbasin under a mirror, towel rail, mat."""
     area = job.layout.site.polygon.area
-    first = job.at_wall("washbasin", where="centre", size=None if area > 4 else (0.54, 0.45, 0.86))
-    if first is not None:
-        on_wall(job, "mirror", first, z=first.z + 1.12, size=(0.55, 0.04, 0.75))
-    job.at_wall("toilet", where="corner")
-    tub = job.at_wall("bathtub", where="corner", mates=frozenset()) if area > 4.5 else None
-    if tub is None or area > 9:
+    bath = job.at_wall("bathtub", where="corner") if area > 4.5 else None
+    if bath is None or area > 9:
         shower = job.at_wall("shower", where="corner")
-        tub = tub or shower
-    if tub is not None:
+        bath = bath or shower
+    job.at_wall("toilet", where="corner")
+    basin = job.at_wall("washbasin", where="centre", size=None if area > 4 else (0.54, 0.45, 0.86))
+    if basin is not None:
+        on_wall(job, "mirror", basin, z=basin.z + 1.12, size=(0.55, 0.04, 0.75))
+    if bath is not None:
         mat = job.piece("bath mat")
-        x, y = local(tub, 0.0, -(float(tub.piece.size[1]) + float(mat.size[1])) / 2 - 0.06)
-        job.layout.try_at(mat, x, y, tub.yaw)
+        x, y = local(bath, 0.0, -(float(bath.piece.size[1]) + float(mat.size[1])) / 2 - 0.06)
+        job.layout.try_at(mat, x, y, bath.yaw)
     wall_piece(job, "towel rail", 0.95)
-    return first or tub
+    return bath or basin
+
+
+def island(job: Job) -> Placed | None:
+    """A kitchen island in the middle of the floor, with stools at its back."""
+    site = job.layout.site
+    placed = job.dressed(job.layout.on_floor(job.piece("kitchen island"), job.rng, site.centre, yaw=0.0, radius=0.4))
+    if placed is not None:
+        stool = job.piece("stool", (0.36, 0.36, 0.62))
+        for share in (-0.28, 0.28):
+            back = (float(placed.piece.size[1]) + float(stool.size[1])) / 2 + 0.08
+            x, y = local(placed, share * float(placed.piece.size[0]), back)
+            job.layout.try_at(stool, x, y, placed.yaw)
+    return placed

@@ -130,11 +130,13 @@ def stove(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def fridge(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """Two doors above each other with bar handles; rounded and coloured where the style is soft."""
+    """Two doors above each other with bar handles: steel, coloured enamel where the style is soft, an oak icebox in period ones."""
     w, d, h = size
-    retro = style.form.softness > 0.7 or style.family in ("midcentury", "surreal", "rustic")
-    slot = "painted_wood" if retro else "appliance"
-    color = style.accents[1] if retro else None
+    retro = style.form.softness > 0.7 or style.family in ("midcentury", "surreal")
+    icebox = style.family in PERIOD and style.family != "surreal"
+    slot = "panel_wood" if icebox else ("painted_wood" if retro else "appliance")
+    color = style.accents[1] if retro and not icebox else None
+    metal = "brass" if icebox else "chrome"
     bend = 0.06 if retro else 0.012
     face = -d / 2 + 0.1
     split = 0.62 * h
@@ -148,8 +150,8 @@ def fridge(style: Style, rng: np.random.Generator, size: Size) -> Model:
         )
     for low, high in ((split - 0.5, split - 0.08), (split + 0.08, split + 0.36)):
         x = -w / 2 + 0.08
-        parts += of("chrome", rod((x, -d / 2 + 0.008, low), (x, -d / 2 + 0.008, high), 0.01))
-        parts += of("chrome", *(rod((x, -d / 2 + 0.008, z), (x, -d / 2 + 0.045, z), 0.007, 6) for z in (low + 0.03, high - 0.03)))
+        parts += of(metal, rod((x, -d / 2 + 0.008, low), (x, -d / 2 + 0.008, high), 0.01))
+        parts += of(metal, *(rod((x, -d / 2 + 0.008, z), (x, -d / 2 + 0.045, z), 0.007, 6) for z in (low + 0.03, high - 0.03)))
     return Model(parts)
 
 
