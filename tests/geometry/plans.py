@@ -1,10 +1,13 @@
 """Floor plans for tests: small ones by hand, and random ones of any size by guillotine cuts."""
 
 import dataclasses
+import itertools
 
 import numpy as np
+import shapely
 
 from wm.geometry.plan import FloorPlan, Opening, Room, parse_plan, plan_to_json
+from wm.geometry.walls import plan_walls
 
 
 def rectangle(name: str, x0: float, y0: float, x1: float, y1: float, *openings: Opening, height: float = 2.8) -> Room:
@@ -91,6 +94,37 @@ def random_plan(seed: int, rooms: int) -> FloorPlan:
             for index, (x0, y0, x1, y1) in enumerate(boxes)
         )
     )
+
+
+def slanted_plan(seed: int, rooms: int) -> FloorPlan:
+    """A plan of at most `rooms` rooms with walls at any angle, some concave, doors enough to reach every room, and windows.
+
+    Voronoi cells of random points in a square, some joined; not every draw keeps the rules (cells may be too small).
+    """
+    rng = np.random.default_rng(np.random.SeedSequence([seed, rooms, 1]))
+    side = 4.0 * np.sqrt(rooms)
+    square = shapely.box(0, 0, side, side)
+    cells = [cell & square for cell in shapely.voronoi_polygons(shapely.MultiPoint(rng.uniform(0, side, (rooms, 2)))).geoms]
+    while len(cells) > 2 and rng.random() < 0.5:
+        first = cells.pop(int(rng.integers(len(cells))))
+        second = max(cells, key=lambda cell: cell.intersection(first).length)
+        joined = first | second
+        cells = [cell for cell in cells if cell is not second] + ([joined] if not joined.interiors else [first, second])
+    rings = [np.asarray(cell.simplify(1e-9).exterior.coords)[:-1] for cell in map(shapely.orient_polygons, cells)]
+    bare = FloorPlan(
+        tuple(Room(f"room{k}", f"Room {k}", ring, float(rng.choice([2.4, 3.0])), ()) for k, ring in enumerate(rings))
+    )
+    listed: list[list[Opening]] = [[] for _ in rings]
+    joined_to = np.arange(len(rings))
+    for wall in itertools.chain(*plan_walls(bare)):
+        ends = wall.start, wall.start + wall.length * wall.direction
+        if not wall.behind and wall.length > 2.2:
+            listed[wall.room].append(window(*ends, wall.length / 2 - 0.5, 1.0))
+        for behind in wall.behind:
+            if behind.high - behind.low > 1.8 and joined_to[wall.room] != joined_to[behind.room]:
+                listed[wall.room].append(opening("door", *ends, (behind.low + behind.high) / 2 - 0.4, 0.8))
+                joined_to[joined_to == joined_to[behind.room]] = joined_to[wall.room]
+    return FloorPlan(tuple(dataclasses.replace(room, openings=tuple(holes)) for room, holes in zip(bare.rooms, listed)))
 
 
 def _cut(rng: np.random.Generator, rooms: int) -> list[tuple[float, float, float, float]]:

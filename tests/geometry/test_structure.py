@@ -5,11 +5,21 @@ import dataclasses
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tests.geometry.plans import checked, l_shaped, one_room, opening, random_plan, rectangle, two_rooms, window
-from wm.geometry import FloorPlan, Room, build_ray_scene, build_structure, cast_rays, face_normals, interior_polygon, portals
+from tests.geometry.plans import checked, l_shaped, one_room, opening, random_plan, rectangle, slanted_plan, two_rooms, window
+from wm.geometry import (
+    FloorPlan,
+    PlanError,
+    Room,
+    build_ray_scene,
+    build_structure,
+    cast_rays,
+    face_normals,
+    interior_polygon,
+    portals,
+)
 from wm.geometry.slivers import heights
 from wm.geometry.structure import PANE, SLAB
 from wm.types import OUTSIDE, Mesh, SurfaceKind
@@ -92,6 +102,16 @@ def check_laws(plan: FloorPlan, mesh: Mesh) -> None:
 @settings(max_examples=30)
 def test_laws_of_random_plans(seed, rooms):
     plan = checked(random_plan(seed, rooms))
+    check_laws(plan, build_structure(plan))
+
+
+@given(SEEDS, st.integers(2, 12))
+@settings(max_examples=20)
+def test_laws_of_slanted_and_concave_plans(seed, rooms):
+    try:
+        plan = checked(slanted_plan(seed, rooms))
+    except PlanError:
+        assume(False)
     check_laws(plan, build_structure(plan))
 
 
