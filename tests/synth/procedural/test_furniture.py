@@ -1,4 +1,4 @@
-"""Every kind in two styles (they take turns): valid meshes of closed parts, named slots, plausible sizes, same dice same piece."""
+"""Every kind in two styles (they take turns): valid meshes of closed parts, named slots, plausible sizes, determinism."""
 
 import functools
 

@@ -130,7 +130,7 @@ def stove(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def fridge(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """Two doors above each other with bar handles: steel, coloured enamel where the style is soft, an oak icebox in period ones."""
+    """Two doors above each other with bar handles: steel, enamel where the style is soft, an icebox in period ones."""
     w, d, h = size
     retro = style.form.softness > 0.7 or style.family in ("midcentury", "surreal")
     icebox = style.family in PERIOD and style.family != "surreal"
