@@ -13,6 +13,7 @@ from wm.synth.procedural.light import (
     BakeSettings,
     LightPoints,
     Probes,
+    Sources,
     RoomCharts,
     bake,
     build_facets,
@@ -45,6 +46,8 @@ class BakedRoom:
     facets: Facets
     pieces: Pieces
     light: np.ndarray  # [p, 6] float32 at the objects' light points: e, then mirrored radiance
+    environment: np.ndarray  # [h, w, 3] float32 what the middle of the room sees: what polished objects reflect
+    eye: np.ndarray  # [3] float32 that middle
 
 
 def bake_room(
@@ -60,15 +63,17 @@ def bake_room(
     pieces, facets, facet_faces = _objects(scene, room, objects, style, interior.seed, settings)
     probes = build_probes(facets, spacing=settings.probe_spacing, budget=settings.probes)
     points = _light_points(charts, sheets, pieces, facets, facet_faces, probes)
-    lamps = lamp_emitters(objects, room, style.light) or ceiling_emitters(interior.polygon, interior.height, style.light)
     light = style.light
+    sources = Sources(
+        panes=pane_emitters(scene.mesh, room, light),
+        lamps=lamp_emitters(objects, room, light) or ceiling_emitters(interior.polygon, interior.height, light),
+        sun=sun,
+        sun_light=soften(light.sun_color) * np.float32(1.6 * light.sun_strength),
+        day=0.3 + 0.4 * light.sky_strength + 0.2 * light.sun_strength,
+        evening=light.lamp_strength,
+    )
     middle = np.append(interior.polygon.mean(axis=0), min(1.6, 0.6 * interior.height))
-    field = bake(
-        scene, points, pane_emitters(scene.mesh, room, light), lamps,
-        sun=sun, sun_radiance=soften(light.sun_color) * np.float32(1.1 * light.sun_strength),
-        day=0.25 + 0.45 * light.sky_strength + 0.25 * light.sun_strength, evening=light.lamp_strength,
-        eye=middle, seed=interior.seed, settings=settings,
-    )  # fmt: skip
+    field = bake(scene, points, sources, eye=middle, seed=interior.seed, settings=settings)
     baked = [field.irradiance, field.bend, field.mirror]
     with ThreadPoolExecutor(2) as pool:
         images = list(pool.map(lambda k: _shade(charts, k, sheets[k], spans[k], baked), range(len(spans))))
@@ -76,6 +81,7 @@ def bake_room(
     return BakedRoom(
         charts=charts, textures=build_pyramid(images, settings.cell / PER_CELL), facet_faces=facet_faces, facets=facets, pieces=pieces,
         light=probes.mix @ np.concatenate([field.irradiance[first:], field.mirror[first:]], axis=1),
+        environment=field.environment, eye=middle.astype(np.float32),
     )  # fmt: skip
 
 

@@ -15,8 +15,8 @@ from wm.geometry.camera import camera_center, camera_rays
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.raycast import build_ray_scene, cast, cast_rays
 from wm.synth.backends import SceneContext
-from wm.synth.procedural.color import tone
-from wm.synth.procedural.light import BakeSettings, chart_places, facet_weights, sun_direction
+from wm.synth.procedural.color import LUMINANCE, tone
+from wm.synth.procedural.light import BakeSettings, chart_places, facet_weights, look_up, sun_direction
 from wm.synth.procedural.pieces import look
 from wm.synth.procedural.pyramid import sample_pyramid
 from wm.synth.procedural.room import BakedRoom, bake_room
@@ -25,6 +25,8 @@ from wm.types import OUTSIDE, Camera, GBuffer
 
 KEPT = 32
 """Rooms kept baked; the least recently seen go first."""
+POLISHED = 0.1
+"""Share of mirrored radiance from which a reflection is looked up at the hit and not mixed from light points."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -146,7 +148,24 @@ class World:
         points, weights = facet_weights(baked.facets, local, barycentric)
         light = np.einsum("nk,nkc->nc", weights, baked.light[points])
         seen = look(baked.pieces, local, barycentric, footprint)
-        return tone(seen.albedo * light[:, :3] + seen.mirror * light[:, 3:] + seen.emission)
+        mirrored = light[:, 3:]
+        polished = np.flatnonzero(seen.mirror.max(axis=1) > POLISHED)
+        mirrored[polished] = self._reflected(baked, face[polished], barycentric[polished], light[polished])
+        return tone(seen.albedo * light[:, :3] + seen.mirror * mirrored + seen.emission)
+
+    def _reflected(self, baked: BakedRoom, face: np.ndarray, barycentric: np.ndarray, light: np.ndarray) -> np.ndarray:
+        """[n, 3] what polished points show an eye in the middle of the room, dimmer where little light arrives."""
+        a, b = barycentric[:, :1], barycentric[:, 1:]
+        c = 1 - a - b
+        corners = self.mesh.vertices[self.mesh.faces[face]].astype(np.float32)
+        view = c * corners[:, 0] + a * corners[:, 1] + b * corners[:, 2] - baked.eye
+        view /= np.maximum(np.linalg.norm(view, axis=1, keepdims=True), 1e-6)
+        normals = baked.facets.corner_normal[baked.facet_faces[face]]
+        normal = c * normals[:, 0] + a * normals[:, 1] + b * normals[:, 2]
+        normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-6)
+        mirror = view - 2 * np.einsum("ni,ni->n", view, normal)[:, None] * normal
+        reached = np.clip((light[:, :3] @ LUMINANCE) / 0.45, 0.25, 1.3)[:, None]
+        return look_up(baked.environment, mirror) * reached
 
     def _surface_ids(self) -> np.ndarray:
         """[f + 1] a number per surface: structure by room and kind, objects by object and slot; the last is for misses."""

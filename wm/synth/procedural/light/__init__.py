@@ -1,7 +1,8 @@
 """Light of the procedural world: where it is stored, where it comes from, and how it gets there."""
 
-from wm.synth.procedural.light.bake import BakeSettings, LightField, bake
+from wm.synth.procedural.light.bake import BakeSettings, LightField, Sources, bake
 from wm.synth.procedural.light.charts import RoomCharts, chart_places, luxel_positions, room_charts
+from wm.synth.procedural.light.environment import look_up
 from wm.synth.procedural.light.facets import Facets, build_facets, facet_weights
 from wm.synth.procedural.light.luxels import LightPoints
 from wm.synth.procedural.light.probes import Probes, build_probes
@@ -16,7 +17,8 @@ from wm.synth.procedural.light.sources import (
 )
 
 __all__ = [
-    "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "Probes", "RoomCharts", "bake", "build_facets", "build_probes", "ceiling_emitters",
-    "chart_places", "facet_weights", "glow_color", "lamp_emitters", "luxel_positions", "pane_emitters", "room_charts", "soften",
+    "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "Probes", "RoomCharts",
+    "Sources", "bake", "build_facets", "build_probes", "ceiling_emitters",
+    "chart_places", "facet_weights", "glow_color", "lamp_emitters", "look_up", "luxel_positions", "pane_emitters", "room_charts", "soften",
     "sun_direction",
 ]  # fmt: skip

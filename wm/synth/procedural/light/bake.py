@@ -16,9 +16,27 @@ from scipy.sparse import csr_array
 
 from wm.geometry.raycast import RayScene
 from wm.synth.procedural.color import LUMINANCE
+from wm.synth.procedural.light.environment import environment
 from wm.synth.procedural.light.luxels import LightPoints, filled, smooth
 from wm.synth.procedural.light.sources import Emitter
 from wm.synth.procedural.light.transport import directions_about, in_chunks, mirrored, sampled_light, sunlight, traced
+
+BURIED = 0.5
+"""Share of rays that hit a surface from behind, above which a point lies inside a solid and its darkness is nobody's."""
+BRIGHT = 0.9
+"""e above which light is compressed: what an eye does that looks at a lamp's wall and at the room in one glance."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sources:
+    """What shines into a room, in relative radiances."""
+
+    panes: list[Emitter]
+    lamps: list[Emitter]
+    sun: np.ndarray  # [3] unit vector towards the sun
+    sun_light: np.ndarray  # [3] e on a surface that faces the sun
+    day: float  # 0..1 share of the room's light that daylight may give
+    evening: float  # 0..1 how strong lamps are at least
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -28,6 +46,7 @@ class LightField:
     irradiance: np.ndarray  # [n, 3] float32 e = irradiance / pi
     bend: np.ndarray  # [n, 3] float32 where light comes from
     mirror: np.ndarray  # [n, 3] float32 radiance that a gloss at the point reflects to the middle of the room
+    environment: np.ndarray  # [h, w, 3] float32 radiance about the middle of the room (see light.environment)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -41,57 +60,63 @@ class BakeSettings:
     rays: int = 80  # a point
     sun_rays: int = 6  # a point
     bounces: int = 4
-    target: float = 0.62  # mean e that a room's lamps are set to reach
-    ambient: float = 0.035  # e that reaches even hidden places
+    target: float = 0.235  # mean radiance that a room is lit to
+    ambient: float = 0.05  # share of the mean e that reaches even hidden places
 
 
 def bake(
-    scene: RayScene, points: LightPoints, panes: list[Emitter], lamps: list[Emitter], *,
-    sun: np.ndarray, sun_radiance: np.ndarray, day: float, evening: float, eye: np.ndarray, seed: int, settings: BakeSettings,
-) -> LightField:  # fmt: skip
-    """The light field of a room.
-
-    Args:
-      panes, lamps: area sources with relative radiance.
-      sun: [3] unit vector towards the sun; sun_radiance [3]: e on a surface that faces it, relative to the sky's radiance 1.
-      day, evening: 0..1 how strong daylight and lamps are to be.
-      eye: [3] the middle of the room, for which glosses reflect.
-    """
+    scene: RayScene, points: LightPoints, sources: Sources, *, eye: np.ndarray, seed: int, settings: BakeSettings
+) -> LightField:
+    """The light field of a room, glosses and mirrors reflecting for an eye in its middle, `eye` [3]."""
     live = np.flatnonzero(points.live)
-    direct = np.zeros((len(points.live), 6), np.float32)
-    direct[live, :3] = sampled_light(scene, points, live, panes, seed) + sunlight(
-        scene, points, live, sun, sun_radiance, seed, rays=settings.sun_rays, cell=settings.cell
+    hits, near, sky, behind = traced(scene, points, live, settings.rays, seed)
+    exposed = points.live.copy()
+    exposed[live[behind > BURIED]] = False
+    kept = exposed[live]
+    live, hits, near, sky = live[kept], hits[kept], near[kept], sky[kept]
+    points = dataclasses.replace(points, live=exposed)
+
+    direct = np.zeros((len(points.live), 9), np.float32)  # of panes, lamps and sun
+    direct[live, 0:3] = sampled_light(scene, points, live, sources.panes, seed)
+    direct[live, 3:6] = sampled_light(scene, points, live, sources.lamps, seed + 1)
+    direct[live, 6:9] = sunlight(
+        scene, points, live, sources.sun, sources.sun_light, seed, rays=settings.sun_rays, cell=settings.cell
     )
-    direct[live, 3:] = sampled_light(scene, points, live, lamps, seed + 1)
     direct = smooth(points, direct, sigma=0.55, rounds=1)
-    hits, near, sky = traced(scene, points, live, settings.rays, seed)
-    source = direct.copy()
-    if panes:
-        source[live, :3] += sky[:, None] * panes[0].radiance[0]
-    source[live, 3:] += near
-    field = source.copy()
-    gather = _gather_matrix(hits, len(points.live) + 1)
-    for _ in range(settings.bounces):
-        radiosity = np.tile(points.albedo, (1, 2)) * field
-        lost = _mean(radiosity, points.live) * np.float32(0.9)
-        bounced = np.zeros_like(field)
-        bounced[live] = gather @ np.concatenate([radiosity, lost[None]])
-        field = source + smooth(points, bounced, sigma=1.3, rounds=3)
-    daylight, lamplight = _balance(points, field, day, evening, settings)
-    total = field[:, :3] * daylight + field[:, 3:] * lamplight
-    total += settings.ambient * np.float32(settings.target)
+    direct[live, 3:6] += near
+    if sources.panes:
+        direct[live, 0:3] += sky[:, None] * sources.panes[0].radiance[0]
+    field = _bounced(points, live, direct, hits, settings.bounces)
+
+    mean_albedo = max(float(_mean(points.albedo, points.live) @ LUMINANCE), 0.05)
+    target = float(np.clip(settings.target / mean_albedo, 0.34, 0.9))
+    factors = np.repeat(_balance(points, field, sources, target), 3)
+    total = (field * factors).reshape(-1, 3, 3).sum(axis=1) + np.float32(settings.ambient * target)
+    total = _compressed(total)
     radiance = points.albedo * total + points.glow
     table = np.concatenate([radiance, _mean(radiance, points.live)[None]])
-    bend = np.zeros((len(points.live), 3), np.float32)
+    bend, mirror = np.zeros((2, len(points.live), 3), np.float32)
     bend[live] = _bends(points, live, table, hits, total, seed)
-    bend[live] += _source_bends(points, live, panes, direct[:, :3] * daylight, total)
-    mirror = np.zeros((len(points.live), 3), np.float32)
+    bend[live] += _source_bends(points, live, sources.panes, direct[:, :3] * factors[:3], total)
     mirror[live] = mirrored(scene, points, live, table, eye, seed)
     return LightField(
         irradiance=filled(points, total),
         bend=filled(points, smooth(points, bend, sigma=1.0, rounds=2)),
         mirror=filled(points, smooth(points, mirror, sigma=0.8, rounds=1)),
+        environment=environment(scene, points, table, eye),
     )
+
+
+def _bounced(points: LightPoints, live: np.ndarray, direct: np.ndarray, hits: np.ndarray, bounces: int) -> np.ndarray:
+    """[n, 9] e of each source after the bounces, the indirect part smoothed."""
+    field, gather = direct, _gather_matrix(hits, len(points.live) + 1)
+    for _ in range(bounces):
+        radiosity = np.tile(points.albedo, (1, 3)) * field
+        lost = _mean(radiosity, points.live) * np.float32(0.9)
+        bounced = np.zeros_like(field)
+        bounced[live] = gather @ np.concatenate([radiosity, lost[None]])
+        field = direct + smooth(points, bounced, sigma=1.3, rounds=3)
+    return field
 
 
 def _gather_matrix(hits: np.ndarray, columns: int) -> csr_array:
@@ -105,16 +130,26 @@ def _mean(values: np.ndarray, live: np.ndarray) -> np.ndarray:
     return values[live].mean(axis=0).astype(np.float32)
 
 
-def _balance(points: LightPoints, field: np.ndarray, day: float, evening: float, settings: BakeSettings) -> tuple[float, float]:
-    """Factors for daylight and lamplight: daylight as the style has it, within bounds; lamps fill what is missing."""
+def _balance(points: LightPoints, field: np.ndarray, sources: Sources, target: float) -> np.ndarray:
+    """[3] factors for daylight, lamps and sun that bring the structure's median e to about `target`.
+
+    Daylight gives its share within bounds, the sun comes on top of it as it is, and lamps fill what is missing.
+    """
     count = len(points.charts.atlas.inside)
-    live = points.live[:count]
-    day_mean = float(np.median((field[:count, :3] @ LUMINANCE)[live]))
-    lamp_mean = float(np.median((field[:count, 3:] @ LUMINANCE)[live]))
-    wanted = settings.target * day
-    daylight = float(np.clip(wanted / max(day_mean, 1e-6), 1.0, 14.0)) if day_mean > 1e-6 else 1.0
-    missing = max(settings.target - daylight * day_mean, 0.25 * evening * settings.target)
-    return daylight, missing / max(lamp_mean, 1e-6)
+    inside = points.live[:count]
+    day, lamps, sun = (float(np.median((field[:count, k : k + 3] @ LUMINANCE)[inside])) for k in (0, 3, 6))
+    sunlight = target
+    daylight = float(np.clip(target * sources.day / max(day, 1e-6), 0.5, 14.0)) if day > 1e-6 else 1.0
+    missing = max(target - daylight * day - sunlight * sun, 0.22 * sources.evening * target)
+    return np.array([daylight, missing / max(lamps, 1e-6), sunlight], np.float32)
+
+
+def _compressed(e: np.ndarray) -> np.ndarray:
+    """e with its luminance above BRIGHT led towards BRIGHT + 0.55, hue kept."""
+    luminance = e @ LUMINANCE
+    excess = np.maximum(luminance - BRIGHT, 0)
+    shown = np.minimum(luminance, BRIGHT) - 0.55 * np.expm1(-excess / 0.55)
+    return (e * (shown / np.maximum(luminance, 1e-6))[:, None]).astype(np.float32)
 
 
 def _bends(

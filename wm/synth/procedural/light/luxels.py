@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt, gaussian_filter
+from scipy.sparse import csr_array
 
 from wm.synth.procedural.light.charts import RoomCharts, chart_places, nearest_texel
 from wm.synth.procedural.light.facets import Facets, facet_weights
@@ -51,12 +52,21 @@ def smooth(points: LightPoints, values: np.ndarray, *, sigma: float, rounds: int
         out[part] = (blurred * mask[..., None]).reshape(-1, values.shape[1])
     first = len(atlas.inside)
     for _ in range(rounds):
-        out[first:] = points.probes.average @ out[first:]
+        out[first:] = mixed(points.probes.average, points.live[first:], out[first:])
     return out
 
 
+def mixed(weights: csr_array, live: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Weighted means of the live among values; where none is live, of all."""
+    mask = live.astype(np.float32)
+    total = weights @ mask
+    some = total > 1e-6
+    means = (weights @ (values * mask[:, None])) / np.where(some, total, 1)[:, None]
+    return np.where(some[:, None], means, weights @ values).astype(np.float32)
+
+
 def filled(points: LightPoints, values: np.ndarray) -> np.ndarray:
-    """Values with every texel off its surface given those of the nearest texel on it."""
+    """Values with every texel off its surface given those of the nearest texel on it, and every buried probe its neighbours' mean."""
     out = values.astype(np.float32)
     for chart in range(len(points.charts.atlas.chart_start)):
         part, shape = _chart_slice(points, chart)
@@ -64,6 +74,9 @@ def filled(points: LightPoints, values: np.ndarray) -> np.ndarray:
         if mask.any() and not mask.all():
             _, index = distance_transform_edt(~mask, return_indices=True)
             out[part] = values[part].reshape(*shape, -1)[tuple(index)].reshape(-1, values.shape[1])
+    first = len(points.charts.atlas.inside)
+    buried = np.flatnonzero(~points.live[first:])
+    out[first + buried] = mixed(points.probes.average[buried], points.live[first:], values[first:])
     return out
 
 

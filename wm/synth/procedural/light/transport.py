@@ -70,11 +70,18 @@ def sunlight(
 
 def traced(
     scene: RayScene, points: LightPoints, live: np.ndarray, rays: int, seed: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What the rays of each point hit: light points [l, rays], e of lamps nearer than 0.2 m [l, 3], share of near sky [l]."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """What the rays of each point find.
+
+    Returns:
+      hits: [l, rays] light points.
+      near: [l, 3] e of lamps nearer than 0.2 m.
+      sky: [l] share of the hemisphere that is sky through a pane nearer than NEAR, by its brightness.
+      behind: [l] share of rays that hit a surface from behind.
+    """
     hits = np.empty((len(live), rays), np.int32)
     near = np.zeros((len(live), 3), np.float32)
-    sky = np.zeros(len(live), np.float32)
+    sky, behind = np.zeros((2, len(live)), np.float32)
     pane = np.append(scene.mesh.face_kind == SurfaceKind.PANE, False)
     glow = np.concatenate([points.glow, np.zeros((1, 3), np.float32)])
 
@@ -85,6 +92,8 @@ def traced(
         found = cast_rays(scene, origins, directions)
         at = locate(points, found.face, found.barycentric)
         hits[part] = at.reshape(-1, rays)
+        inward = np.einsum("ri,ri->r", directions, scene.normals[found.face]) > 0
+        behind[part] = inward.reshape(-1, rays).mean(axis=1)
         close = np.flatnonzero(found.t < NEAR)
         glass = close[pane[found.face[close]]]
         sky[part] = np.bincount(glass // rays, _sky(directions[glass, 2]), len(index)) / rays
@@ -93,7 +102,7 @@ def traced(
             near[part, c] = np.bincount(lamp // rays, glow[at[lamp], c], len(index)) / rays
 
     in_chunks(trace, len(live))
-    return hits, near, sky
+    return hits, near, sky, behind
 
 
 def mirrored(scene: RayScene, points: LightPoints, live: np.ndarray, table: np.ndarray, eye: np.ndarray, seed: int) -> np.ndarray:

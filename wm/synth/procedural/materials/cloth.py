@@ -14,7 +14,7 @@ def textile(p: Points, finish: Finish, seed: int) -> Surface:
     cross = fbm((p.x, p.y * F32(0.15), p.z * F32(0.15)), wavelength=0.04, octaves=2, footprint=p.footprint, seed=seed + 4)
     weave = np.sin(p.u * F32(2 * np.pi / size)) * np.sin(p.v * F32(2 * np.pi / size)) * visible(size, p.footprint)
     fold = fbm((p.x, p.y, p.z), wavelength=0.3, octaves=2, footprint=p.footprint, seed=seed + 8)
-    weight = np.clip(F32(0.3) + F32(0.3) * (slub - cross) + F32(0.25) * weave, 0, 1) * F32(0.6 * finish.contrast)
+    weight = np.clip(F32(0.3) + F32(0.3) * (slub - cross) + F32(0.25) * weave, 0, 1) * F32(0.35 * finish.contrast)
     color = vary(mix(ink(finish, 0), ink(finish, 1, shade=0.75), weight), 0.07 * fold + 0.1 * stains(p, finish, seed=seed + 9))
     return Surface(albedo=color, roughness=finish.roughness)
 

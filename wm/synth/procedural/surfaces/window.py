@@ -110,5 +110,5 @@ def _leaded(chart: Chart, glass: Sheet, s: np.ndarray, t: np.ndarray, width: flo
         albedo=glass.albedo,
         roughness=glass.roughness,
         height=glass.height,
-        emission=(emission * (1 - F32(0.8) * lead)).astype(F32),
+        emission=(emission * (1 - F32(0.62) * lead)).astype(F32),
     )
