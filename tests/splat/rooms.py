@@ -1,6 +1,7 @@
 """A tiny scene with analytic images: boxes in a row, seen from inside, for the tests of the cloud and of the fits."""
 
 import numpy as np
+
 from wm.geometry.camera import camera_center, camera_rays, make_camera
 from wm.splat.training import TrainingView
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from wm.schema import FitSettings
-from wm.splat.cloud import SH_C0, depth_normals, initial_gaussians, quats_from_normals, surface_cloud
 
 from tests.splat.rooms import SIZE, look, views_of
+from wm.schema import FitSettings
+from wm.splat.cloud import SH_C0, depth_normals, initial_gaussians, quats_from_normals, surface_cloud
 
 
 def rotate(quats, v):

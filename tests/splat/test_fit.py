@@ -5,19 +5,21 @@ import dataclasses
 import jax
 import numpy as np
 import pytest
+
+from tests.splat.rooms import SIZE, views_of
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.cloud import initial_gaussians
 from wm.splat.fit import fit
 from wm.splat.frozen import visible_columns
-from wm.splat.room_fit import CULLED_LOGIT, curve_steps, pad_gaussians, view_at
+from wm.splat.room_fit import CULLED_LOGIT, curve_steps, pad_gaussians, to_target, view_at
 from wm.splat.step import project_view, rates_at, train_step
 
-from tests.splat.rooms import SIZE, views_of
-
-SETTINGS = FitSettings(spacing=0.4, steps=12, curve_points=2)
+SETTINGS = FitSettings(spacing=0.4, steps=12, curve_points=2, lr_means=2e-3, lr_sh=3e-2)
 RASTER = RasterSettings(chunk=1, block=16)
 VIEWS, HELDOUT = views_of(), views_of(count=1, turn=0.6)
-START = initial_gaussians(VIEWS, settings=SETTINGS, rng=np.random.default_rng(0))
+WHOLE = initial_gaussians(VIEWS, settings=SETTINGS, rng=np.random.default_rng(0))
+FAR = WHOLE.means[:, 0] > SIZE[0] / 2
+START, OTHER = jax.tree.map(lambda x: x[FAR], WHOLE), jax.tree.map(lambda x: x[~FAR], WHOLE)
 KEY = jax.random.key(3)
 
 
@@ -26,7 +28,8 @@ def same_bytes(a, b):
 
 
 def run(start=START, views=VIEWS, settings=SETTINGS, **kwargs):
-    return fit(start, views, settings=settings, raster=RASTER, **{"key": KEY} | kwargs)
+    """Half a room, beside its other half; every fit here has the same shapes, so the step is compiled once."""
+    return fit(start, views, settings=settings, raster=RASTER, **{"key": KEY, "frozen": OTHER} | kwargs)
 
 
 def test_a_fit_lowers_loss_and_held_out_error_and_says_when():
@@ -35,7 +38,7 @@ def test_a_fit_lowers_loss_and_held_out_error_and_says_when():
     result = run(heldout=HELDOUT, progress=lambda done, total, info: seen.append((done, total, info["loss"])))
     first, last = result.history
     assert (first.step, last.step) == (0, 12) and result.stopped is None
-    assert last.psnr > first.psnr + 0.5 and last.m_mae < first.m_mae
+    assert last.psnr > first.psnr + 0.3 and last.m_mae < first.m_mae
     assert np.mean([loss for *_, loss in seen[-4:]]) < np.mean([loss for *_, loss in seen[:4]])
     assert [done for done, *_ in seen] == list(range(1, 13)) and {total for _, total, _ in seen} == {12}
     assert last.seconds >= first.seconds >= 0
@@ -62,41 +65,38 @@ def test_a_loss_that_is_not_finite_stops_at_the_last_good_state():
     assert all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(result.gaussians))
 
 
+@pytest.mark.slow
 def test_without_depth_weight_no_depth_is_rendered():
     result = run(settings=dataclasses.replace(SETTINGS, depth_weight=0.0, steps=2), heldout=HELDOUT)
     assert result.history[-1].depth == 0 and np.isnan(result.history[-1].m_mae) and np.isfinite(result.history[-1].psnr)
 
 
 def test_frozen_gaussians_are_seen_and_not_moved():
-    half = START.means[:, 0] > SIZE[0] / 2
-    own, other = (jax.tree.map(lambda x, keep=keep: x[keep], START) for keep in (half, ~half))
+    before = jax.tree.map(np.copy, OTHER)
     settings = dataclasses.replace(SETTINGS, steps=1)
-    beside, alone, whole = run(own, frozen=other, settings=settings), run(own, settings=settings), run(settings=settings)
-    assert same_bytes(other, jax.tree.map(lambda x: x[~half], START))
-    # the other half is rendered: the loss is that of the whole, up to the order of the sum
-    np.testing.assert_allclose(beside.history[-1].loss, whole.history[-1].loss, rtol=1e-4)
-    assert alone.history[-1].loss > 1.5 * whole.history[-1].loss
+    beside, beside_wrong = run(settings=settings), run(settings=settings, frozen=OTHER.replace(sh=-OTHER.sh))
+    assert beside_wrong.history[-1].l1 > 1.3 * beside.history[-1].l1
+    assert len(beside.gaussians.means) == len(START.means) and same_bytes(before, OTHER)
 
 
-def test_padding_is_culled_and_moves_nothing():
+def test_padding_is_culled_by_every_view():
     n = len(START.means)
     padded = pad_gaussians(START, n + 37)
-    result = run(padded, settings=dataclasses.replace(SETTINGS, steps=3))
-    plain = run(settings=dataclasses.replace(SETTINGS, steps=3))
-    assert same_bytes(jax.tree.map(lambda x: x[:n], result.gaussians), plain.gaussians)
-    assert (result.gaussians.opacity_logits[n:] == CULLED_LOGIT).all() and not result.gaussians.means[n:].any()
+    assert same_bytes(jax.tree.map(lambda x: x[:n], padded), START) and (padded.opacity_logits[n:] == CULLED_LOGIT).all()
+    for view in VIEWS:
+        projected = project_view(padded, to_target(view, jax.devices()[0]).camera, raster=RASTER)
+        assert not np.asarray(projected.opacity)[n:].any() and not np.asarray(projected.extent)[:, n:].any()
 
 
 def test_frozen_gaussians_behind_the_scaffold_are_left_out():
-    view = VIEWS[0]
-    camera = jax.tree.map(lambda x: np.asarray(x, np.float32), view.camera)
-    projected = jax.tree.map(np.asarray, project_view(START, camera, raster=RASTER))
+    view, small = VIEWS[0], WHOLE.replace(log_scales=WHOLE.log_scales - 2)
+    camera = to_target(view, jax.devices()[0]).camera
+    projected = jax.tree.map(np.asarray, project_view(small, camera, raster=RASTER))
     shown = visible_columns(projected, view.depth)
-    listed = ((projected.extent > 0).all(0) & (np.abs(projected.mean2d - [[20], [12]]) < [[20], [12]]).all(0)).sum()
-    assert shown.opacity.shape[0] >= listed > 0  # everything in the image is in front of or on the scaffold
-    assert visible_columns(projected, 0.2 * view.depth).opacity.shape[0] < 0.5 * listed
-    nowhere = visible_columns(projected, 0 * view.depth)
-    assert nowhere.opacity.shape == shown.opacity.shape
+    inside = (projected.extent > 0).all(0) & (np.abs(projected.mean2d - [[20], [12]]) < [[20], [12]]).all(0)
+    assert shown.opacity.shape[0] >= inside.sum() > 0  # everything in the image is on the scaffold
+    assert visible_columns(projected, 0.2 * view.depth).opacity.shape[0] < 0.3 * inside.sum()
+    assert visible_columns(projected, 0 * view.depth).opacity.shape == shown.opacity.shape
 
 
 def test_every_epoch_shows_every_view_once():

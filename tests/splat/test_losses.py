@@ -3,8 +3,8 @@
 import jax
 import jax.numpy as jnp
 import numpy as np
-from wm.splat.losses import depth_loss, photometric_loss
 
+from wm.splat.losses import depth_loss, photometric_loss
 
 photometric = jax.jit(jax.value_and_grad(lambda rgb, target, mask, w: photometric_loss(rgb, target, mask, ssim_weight=w)))
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from wm.splat.ply import PlyError, load_ply, save_ply
 from wm.types import Gaussians
 
@@ -44,13 +45,15 @@ def test_other_orders_types_and_extra_properties_are_read(tmp_path):
     names += ["scale_0", "scale_1", "scale_2"]
     values = {"opacity": gaussians.opacity_logits, "extra": np.arange(3)}
     values |= {f"rot_{i}": gaussians.quats[:, i] for i in range(4)} | {c: gaussians.means[:, i] for i, c in enumerate("xyz")}
-    values |= {f"scale_{i}": gaussians.log_scales[:, i] for i in range(3)} | {f"f_dc_{i}": gaussians.sh[:, 0, i] for i in range(3)}
+    values |= {f"scale_{i}": gaussians.log_scales[:, i] for i in range(3)}
+    values |= {f"f_dc_{i}": gaussians.sh[:, 0, i] for i in range(3)}
     kinds = {name: ("uchar", "u1") if name == "extra" else ("double", "<f8") for name in names}
     table = np.zeros(3, [(name, kinds[name][1]) for name in names])
     for name in names:
         table[name] = values[name]
     lines = ["ply", "format binary_little_endian 1.0", "comment by another", "element vertex 3"]
-    lines += [f"property {kinds[name][0]} {name}" for name in names] + ["element face 0", "property list uchar int vertex_indices"]
+    lines += [f"property {kinds[name][0]} {name}" for name in names]
+    lines += ["element face 0", "property list uchar int vertex_indices"]
     path = tmp_path / "b.ply"
     path.write_bytes(("\n".join(lines) + "\nend_header\n").encode() + table.tobytes())
     jax.tree.map(np.testing.assert_array_equal, load_ply(path), gaussians)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from wm.splat.ssim import C1, C2, RADIUS, TAPS, ssim, ssim_map
 
+from wm.splat.ssim import C1, C2, RADIUS, TAPS, ssim, ssim_map
 
 jitted_map = jax.jit(ssim_map)
 
