@@ -14,14 +14,14 @@ sys.path.insert(0, str(Path(__file__).parents[2]))  # the plan generator lives w
 from tests.geometry.plans import random_plan
 from tests.geometry.test_glb import quad
 from tests.geometry.test_mesh import wedge
-from wm.geometry import GlbNode, build_structure, object_nodes, save_glb
+from wm.geometry import GlbNode, atlas_nodes, build_atlas, build_structure, object_nodes, save_glb
 
 HERE = Path(__file__).parent
 VALIDATOR = "gltf-validator@2.0.0-dev.3.10"
 
 
 def write_cases(folder: Path) -> list[Path]:
-    """One file a case: nothing, things that glow, textures lit and unlit and shared, a building 9 km from the origin."""
+    """One file a case: nothing, things that glow, textures of all sorts, a scaffold with its atlas, a building 9 km from the origin."""
     mesh = build_structure(random_plan(2, 6))
     skin = GlbNode("scaffold", mesh.vertices, mesh.faces, base_color=np.array([0.8, 0.8, 0.8]))
     objects = object_nodes([wedge(seed) for seed in range(5)])
@@ -30,6 +30,7 @@ def write_cases(folder: Path) -> list[Path]:
         "objects": objects,
         "textured": [quad(), quad(name="copy", texture=quad().texture), quad(name="screen", emission=3.0)],
         "scene": [skin, *objects, quad()],
+        "atlas": [*atlas_nodes(build_atlas(mesh, 0.05), mesh), *objects],
         "far": [GlbNode("scaffold", mesh.vertices + 9000.0, mesh.faces)],
     }
     for name, nodes in cases.items():
