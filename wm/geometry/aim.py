@@ -1,9 +1,10 @@
 """Where planned cameras look: each position is given several possible views, and one of each is picked so that together they
 see as much of the room's surface as often as possible.
 
-Greedy: again and again the position and view that add most. A surface point is worth VALUES[k] to the view that is the
-(k + 1)-th to see it, so unseen surface comes first, and seen three times is what is aimed for (texture and splats want parallax).
-The sum is submodular, so the greedy choice reaches at least half of the best possible (Fisher, Nemhauser and Wolsey, 1978).
+Greedy: again and again the position and view that add most; then each position chooses anew, given the others. A surface
+point is worth VALUES[k] to the view that is the (k + 1)-th to see it, so unseen surface comes first, and seen three times is
+what is aimed for (texture and splats want parallax). The sum is submodular, so the greedy choice reaches at least half of the
+best possible (Fisher, Nemhauser and Wolsey, 1978), and choosing anew only adds to it.
 """
 
 import dataclasses
@@ -16,8 +17,10 @@ from wm.geometry.camera import look_rotations
 from wm.geometry.raycast import RayScene
 from wm.geometry.surface_points import SurfacePoints, in_sight
 
-VALUES = np.array([1.0, 0.3, 0.15, 0.02])
+VALUES = np.array([1.0, 0.15, 0.08, 0.01])
 """Of the first, second, third and any further view of a point."""
+_SWEEPS = 2
+"""Times each position chooses again, once the others have chosen."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -48,12 +51,19 @@ def choose_aims(
     times = times.copy()
     chosen = [-1] * len(options)
     for _ in options:
-        worth = VALUES[np.minimum(times, len(VALUES) - 1)].astype(np.float32)
-        gains = [mask @ worth if pick < 0 else np.full(1, -1.0) for mask, pick in zip(masks, chosen)]
+        gains = [mask @ _worth(times) if pick < 0 else np.full(1, -1.0) for mask, pick in zip(masks, chosen)]
         position = int(np.argmax([gain.max() for gain in gains]))
         chosen[position] = int(np.argmax(gains[position]))
         times += masks[position][chosen[position]] > 0
+    for position in [*range(len(options))] * _SWEEPS:
+        times -= masks[position][chosen[position]] > 0
+        chosen[position] = int(np.argmax(masks[position] @ _worth(times)))
+        times += masks[position][chosen[position]] > 0
     return chosen
+
+
+def _worth(times: Int[np.ndarray, "p"]) -> Float[np.ndarray, "p"]:
+    return VALUES[np.minimum(times, len(VALUES) - 1)].astype(np.float32)
 
 
 def _masks(

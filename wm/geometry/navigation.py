@@ -51,10 +51,10 @@ def navigability(
     standing = (thing.vertices for thing in objects if thing.support in ("floor", "object"))
     area = floor.difference(outlines(standing, FLAT, settings.obstacle_height))
     low, high = np.array(floor.bounds[:2]), np.array(floor.bounds[2:])
-    shape = np.ceil((high - low) / settings.cell).astype(int)[::-1]
-    free = cells_inside(area, low, settings.cell, tuple(shape))
+    columns, rows = (int(n) for n in np.ceil((high - low) / settings.cell))
+    free = cells_inside(area, low, settings.cell, (rows, columns))
     component, share = _components(free)
-    _, share_body = _components(cells_inside(area.buffer(-settings.body_radius), low, settings.cell, tuple(shape)))
+    _, share_body = _components(cells_inside(area.buffer(-settings.body_radius), low, settings.cell, (rows, columns)))
     return Navigability(share=share, share_body=share_body, free=free, component=component, origin=low, cell=settings.cell)
 
 

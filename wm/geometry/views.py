@@ -6,9 +6,9 @@
     doorway     one in each door of the room, looking into it (ours: the threshold is where the paper's scenes break)
 
 A wanted position that is not in free air, or from which something near fills the picture, is replaced by the nearest good one.
-Perimeter and overhead views may turn up to TURN aside and tilt, and where furniture takes their place, stand elsewhere within
-reach; of these the ones are picked that see most (`aim.py`: ours; level views towards the middle alone miss floor, ceiling,
-niches and the aisles between shelves). No perimeter view within `prune_angle` of a
+Perimeter and overhead views may turn up to TURN aside and tilt, perimeter views may stand LOWER, and where furniture takes its
+place a view may stand elsewhere within reach; of these the ones are picked that see most (`aim.py`: ours; level views towards
+the middle alone miss floor, ceiling, niches and the aisles between shelves). No perimeter view within `prune_angle` of a
 bootstrap view is picked, so that pruning costs no views; a position with no other choice is dropped.
 """
 
@@ -30,12 +30,13 @@ from wm.types import Camera, Mesh, View
 
 MEDIAN_DEPTH = 0.8  # metres a view should see (`openness`); less in rooms narrower than that
 TURN = 30.0  # degrees to either side of the middle that a perimeter or overhead view may look
+LOWER = 0.5  # metres below eye level at which a perimeter view may stand: what is under shelves is seen from there only
 _TILTS = (-30.0, -15.0, 0.0, 15.0, 30.0)  # degrees of a perimeter view above the horizon
 _OVERHEAD_TILTS = (-45.0, -30.0)
 _TRIES = 24  # positions judged by their picture
 _APART = 0.15  # metres between two cameras of a kind
-_REACH = 1.2  # metres around a wanted position taken by furniture within which its view may stand
-_PLACES = 6  # positions there
+_REACH = 1.5  # metres around a wanted position taken by furniture within which its view may stand
+_PLACES = 8  # positions there
 _POINTS = 2000  # surface points a room by which views are picked
 _DEFAULTS = CameraSettings()
 
@@ -156,6 +157,8 @@ def _options(air: RoomAir, start: np.ndarray, settings: CameraSettings, kind: st
     wanted = _at(walk_line(air, start, count, phase), height)
     settled = settle(air, wanted, lambda spot: np.append(look_point(air, spot[:2]), spot[2] - drop), settings)
     places = [_elsewhere(air, position, camera_center(camera)) for position, camera in zip(wanted, settled)]
+    if kind == "perimeter":
+        places = [np.concatenate([place, _lower(air, place)]) for place in places]
     eyes = np.repeat(np.concatenate([*places, np.zeros((0, 3))]), 3, axis=0)
     if not len(eyes):
         return []
@@ -200,6 +203,12 @@ def _elsewhere(air: RoomAir, wanted: np.ndarray, settled: np.ndarray) -> Float[n
             break
         chosen.append(spots[np.argmax(gap)])
     return np.array(chosen)
+
+
+def _lower(air: RoomAir, place: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "m 3"]:
+    """Those of the places, LOWER down, that are in free air there."""
+    lower = place - [0.0, 0.0, LOWER]
+    return lower[free(air.scene, lower, air.clearance)]
 
 
 def _at(points: Float[np.ndarray, "n 2"], height: float) -> Float[np.ndarray, "n 3"]:
