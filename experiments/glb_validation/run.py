@@ -21,7 +21,7 @@ VALIDATOR = "gltf-validator@2.0.0-dev.3.10"
 
 
 def write_cases(folder: Path) -> list[Path]:
-    """One file a case: nothing, things that glow, textures of all sorts, a scaffold with its atlas, a building 9 km from the origin."""
+    """One file a case: nothing, things that glow, textures, a scaffold with its atlas, a building 9 km from the origin."""
     mesh = build_structure(random_plan(2, 6))
     skin = GlbNode("scaffold", mesh.vertices, mesh.faces, base_color=np.array([0.8, 0.8, 0.8]))
     objects = object_nodes([wedge(seed) for seed in range(5)])
