@@ -16,8 +16,9 @@ from wm.geometry.raycast import build_ray_scene, cast
 from wm.geometry.structure import build_structure
 from wm.geometry.texture import accumulate
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
+from wm.synth.attempt import attempt_seed
 from wm.synth.backends import ImageResult
-from wm.synth.paint import PaintSettings, Scaffold, attempt_seed, paint_scene, scene_depth_range
+from wm.synth.paint import PaintSettings, Scaffold, paint_scene, scene_depth_range
 from wm.types import View
 
 SETTINGS = PaintSettings(texture=TextureSettings(texel_size=0.05))

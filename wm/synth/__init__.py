@@ -5,6 +5,8 @@
     order        in which order views are painted, and where each takes its style from
     canny        depth edges
     verify       does an image keep the scaffold's structure?
+    agreement    where a failed one may still be used
+    attempt      one view: generate, verify, try again
     paint        the loop: condition, generate, verify, project back
 """
 

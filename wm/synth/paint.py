@@ -20,12 +20,10 @@ from wm.geometry.camera import camera_quat, scale_camera
 from wm.geometry.raycast import RayScene, cast
 from wm.geometry.texture import accumulate_in_place
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
-from wm.synth.agreement import agreement
-from wm.synth.backends import DepthBackend, ImageBackend, ImageRequest
-from wm.synth.canny import depth_edges
+from wm.synth.attempt import PaintedView, as_float, paint_view
+from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest
 from wm.synth.condition import make_condition
 from wm.synth.order import paint_order
-from wm.synth.verify import verify
 from wm.types import Atlas, GBuffer, SceneObject, View
 
 _RANGE_SCALE = 1 / 8  # resolution at which the scene's depth range is looked up
@@ -44,19 +42,6 @@ class PaintSettings:
     texture: TextureSettings = dataclasses.field(default_factory=TextureSettings)
     condition: ConditionConfig = dataclasses.field(default_factory=ConditionConfig)
     verify: VerifySettings = dataclasses.field(default_factory=VerifySettings)
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class PaintedView:
-    """A finished view: all that a later run needs to go on as if it had painted it itself."""
-
-    rgb: np.ndarray  # [h, w, 3] uint8 sRGB
-    mask: np.ndarray  # [h, w] bool: pixels that may be used
-    recall: float | None  # depth-edge recall; None where the test was off, did not apply or had no estimate
-    attempts: int  # images generated
-    accepted: bool  # whether one passed; otherwise the mask says where the best one agrees
-    reference: str | None  # name of the view its style came from
-    condition: np.ndarray  # [h, w, 3] uint8, what the image model was shown
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -106,41 +91,28 @@ def paint_scene(
     attempts: list[int] = []
     done: list[int] = []
     for room in sorted({view.room for view in views}):
-        members = [i for i, view in enumerate(views) if view.room == room]
-        members.sort(key=lambda i: views[i].kind != "bootstrap")
-        bootstraps = sum(views[i].kind == "bootstrap" for i in members)
-        steps = paint_order(_quats(views, members), _quats(views, done), bootstraps=bootstraps)
-        candidates = [*done, *members]
-        images: dict[int, np.ndarray] = {}
-        for step in steps:
-            index = members[step.view]
+        images: dict[int, np.ndarray] = {}  # of this room; those of earlier rooms are loaded when needed
+        for index, reference in _room_order(views, room, done):
             view = views[index]
             gbuffer = cast(scaffold.scene, view.camera)
             painted = load(view)
             if painted is None:
                 shown = gbuffer if conditioning is scaffold else cast(conditioning.scene, view.camera)
-                condition = make_condition(
-                    shown,
-                    view.camera,
-                    atlas,
-                    conditioning.scene.mesh,
-                    conditioning.objects,
-                    depth_range,
-                    settings.condition,
-                    settings.texture,
+                request = ImageRequest(
+                    condition=_condition(shown, view, atlas, conditioning, depth_range, settings),
+                    reference=None if reference is None else _image_of(views[reference], images.get(reference), load),
+                    prompt=prompt(room),
+                    view=view,
+                    seed=seed,
                 )
-                reference = None if step.reference is None else candidates[step.reference]
-                style = None if reference is None else _image_of(views[reference], images.get(reference), load)
-                request = ImageRequest(condition=condition, reference=style, prompt=prompt(room), view=view, seed=0)
-                painted = _attempt(request, shown, image, depth, settings.verify, (seed, index))
-                painted = dataclasses.replace(painted, reference=None if reference is None else views[reference].name)
+                style = None if reference is None else views[reference].name
+                painted = paint_view(request, shown, image, depth, settings.verify, (seed, index), style)
                 store(view, painted)
-            images[index] = painted.rgb
-            rgb = _as_float(painted.rgb)
+            rgb = as_float(painted.rgb)
             accumulate_in_place(atlas, gbuffer, view.camera, rgb, room, settings.texture, usable=painted.mask)
+            images[index] = painted.rgb
             done.append(index)
-            if painted.accepted:
-                attempts.append(painted.attempts)
+            attempts += [painted.attempts] if painted.accepted else []
             if progress is not None:
                 progress(view, painted)
     return PaintSummary(
@@ -149,6 +121,23 @@ def paint_scene(
         yield_share=len(attempts) / len(views) if views else 1.0,
         atm=float(np.mean(attempts)) if attempts else None,
     )
+
+
+def _room_order(views: Sequence[View], room: int, done: Sequence[int]) -> list[tuple[int, int | None]]:
+    """(view, reference) of a room as indices into `views`, in painting order."""
+    members = [i for i, view in enumerate(views) if view.room == room]
+    members.sort(key=lambda i: views[i].kind != "bootstrap")
+    bootstraps = sum(views[i].kind == "bootstrap" for i in members)
+    candidates = [*done, *members]
+    steps = paint_order(_quats(views, members), _quats(views, done), bootstraps=bootstraps)
+    return [(members[s.view], None if s.reference is None else candidates[s.reference]) for s in steps]
+
+
+def _condition(
+    shown: GBuffer, view: View, atlas: Atlas, scaffold: Scaffold, depth_range: tuple[float, float], settings: PaintSettings
+) -> Condition:
+    mesh, objects = scaffold.scene.mesh, scaffold.objects
+    return make_condition(shown, view.camera, atlas, mesh, objects, depth_range, settings.condition, settings.texture)
 
 
 def scene_depth_range(views: Sequence[View], scene: RayScene) -> tuple[float, float]:
@@ -161,58 +150,6 @@ def scene_depth_range(views: Sequence[View], scene: RayScene) -> tuple[float, fl
     return (near, far) if near < far else (0.0, max(far, 1.0))
 
 
-def attempt_seed(seed: int, view: int, attempt: int) -> int:
-    """The seed of one attempt at one view: stable, and different for every (seed, view, attempt)."""
-    return int(np.random.SeedSequence([seed, view, attempt]).generate_state(1)[0])
-
-
-def _attempt(
-    request: ImageRequest,
-    shown: GBuffer,
-    image: ImageBackend,
-    depth: DepthBackend,
-    settings: VerifySettings,
-    identity: tuple[int, int],
-) -> PaintedView:
-    """Generate until an image passes, or until the limit; then the attempt of the highest recall, where it agrees."""
-    edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
-    condition = _as_bytes(request.condition.rgb)
-    best: tuple[float, PaintedView, np.ndarray | None] | None = None
-    for attempt in range(max(settings.max_attempts, 1)):
-        request = dataclasses.replace(request, seed=attempt_seed(*identity, attempt))
-        result = image.generate(request)
-        _check(result.rgb, request)
-        rgb = _as_bytes(result.rgb)
-        result = dataclasses.replace(result, rgb=_as_float(rgb))
-        estimate = depth.estimate(result, seed=request.seed) if settings.enabled else None
-        verdict = verify(edges, estimate, settings)
-        painted = PaintedView(
-            rgb=rgb,
-            mask=np.ones(shown.hit.shape, bool),
-            recall=verdict.recall,
-            attempts=attempt + 1,
-            accepted=verdict.passed,
-            reference=None,
-            condition=condition,
-        )
-        if verdict.passed:
-            return painted
-        score = -1.0 if verdict.recall is None else verdict.recall
-        if best is None or score > best[0]:
-            best = (score, painted, estimate)
-    assert best is not None
-    mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
-    return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
-
-
-def _check(rgb: np.ndarray, request: ImageRequest) -> None:
-    expected = (request.view.camera.height, request.view.camera.width, 3)
-    if rgb.shape != expected:
-        raise ValueError(f"view {request.view.name}: the image backend returned shape {rgb.shape}, not {expected}")
-    if not np.isfinite(rgb).all():
-        raise ValueError(f"view {request.view.name}: the image backend returned an image that is not finite")
-
-
 def _image_of(view: View, rgb: np.ndarray | None, load: Callable[[View], PaintedView | None]) -> np.ndarray:
     """A finished view's image, from this room's memory or from where it was stored."""
     if rgb is None:
@@ -220,16 +157,8 @@ def _image_of(view: View, rgb: np.ndarray | None, load: Callable[[View], Painted
         if painted is None:
             raise RuntimeError(f"view {view.name} was stored but cannot be loaded as a style reference")
         rgb = painted.rgb
-    return _as_float(rgb)
+    return as_float(rgb)
 
 
 def _quats(views: Sequence[View], indices: Sequence[int]) -> np.ndarray:
     return np.array([camera_quat(views[i].camera) for i in indices]).reshape(-1, 4)
-
-
-def _as_bytes(rgb: np.ndarray) -> np.ndarray:
-    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
-
-
-def _as_float(rgb: np.ndarray) -> np.ndarray:
-    return rgb.astype(np.float32) / np.float32(255)

@@ -1,0 +1,104 @@
+"""Painting one view: generate, verify, try again, and at the limit keep what agrees with the scaffold.
+
+Images are rounded to 8 bits before they are used for anything, so that what is stored is exactly what went on.
+"""
+
+import dataclasses
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from wm.schema import VerifySettings
+from wm.synth.agreement import agreement
+from wm.synth.backends import DepthBackend, ImageBackend, ImageRequest
+from wm.synth.canny import depth_edges
+from wm.synth.verify import verify
+from wm.types import GBuffer
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class PaintedView:
+    """A finished view: all that a later run needs to go on as if it had painted it itself."""
+
+    rgb: np.ndarray  # [h, w, 3] uint8 sRGB
+    mask: np.ndarray  # [h, w] bool: pixels that may be used
+    recall: float | None  # depth-edge recall; None where the test was off, did not apply or had no estimate
+    attempts: int  # images generated
+    accepted: bool  # whether one passed; otherwise the mask says where the best one agrees
+    reference: str | None  # name of the view its style came from
+    condition: np.ndarray  # [h, w, 3] uint8, what the image model was shown
+
+
+def attempt_seed(seed: int, view: int, attempt: int) -> int:
+    """The seed of one attempt at one view: stable, and different for every (seed, view, attempt)."""
+    return int(np.random.SeedSequence([seed, view, attempt]).generate_state(1)[0])
+
+
+def paint_view(
+    request: ImageRequest,
+    shown: GBuffer,
+    image: ImageBackend,
+    depth: DepthBackend,
+    settings: VerifySettings,
+    identity: tuple[int, int],
+    reference: str | None,
+) -> PaintedView:
+    """One finished view: generated until an image passes; at the limit the one of the highest recall, where it agrees.
+
+    Args:
+      request: what the image model is asked; its seed is set for each attempt.
+      shown: the G-buffer of the conditioning scaffold, to which the image is held.
+      image, depth: the backends.
+      settings: verification.
+      identity: (the scene's seed, the view's index), from which the attempts' seeds derive.
+      reference: name of the view that the request's style came from.
+
+    Raises:
+      ValueError: the image backend returned something that is no image of the view's size.
+    """
+    edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
+    condition = as_bytes(request.condition.rgb)
+    best: tuple[float, PaintedView, np.ndarray | None] | None = None
+    for attempt in range(max(settings.max_attempts, 1)):
+        request = dataclasses.replace(request, seed=attempt_seed(*identity, attempt))
+        result = image.generate(request)
+        _check(result.rgb, request)
+        rgb = as_bytes(result.rgb)
+        result = dataclasses.replace(result, rgb=as_float(rgb))
+        estimate = depth.estimate(result, seed=request.seed) if settings.enabled else None
+        verdict = verify(edges, estimate, settings)
+        painted = PaintedView(
+            rgb=rgb,
+            mask=np.ones(shown.hit.shape, bool),
+            recall=verdict.recall,
+            attempts=attempt + 1,
+            accepted=verdict.passed,
+            reference=reference,
+            condition=condition,
+        )
+        if verdict.passed:
+            return painted
+        score = -1.0 if verdict.recall is None else verdict.recall
+        if best is None or score > best[0]:
+            best = (score, painted, estimate)
+    assert best is not None
+    mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
+    return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
+
+
+def _check(rgb: np.ndarray, request: ImageRequest) -> None:
+    expected = (request.view.camera.height, request.view.camera.width, 3)
+    if rgb.shape != expected:
+        raise ValueError(f"view {request.view.name}: the image backend returned shape {rgb.shape}, not {expected}")
+    if not np.isfinite(rgb).all():
+        raise ValueError(f"view {request.view.name}: the image backend returned an image that is not finite")
+
+
+def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
+    """[0, 1] to 8 bits, rounded."""
+    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
+
+
+def as_float(rgb: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w 3"]:
+    """8 bits to float32 in [0, 1]."""
+    return rgb.astype(np.float32) / np.float32(255)
