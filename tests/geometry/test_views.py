@@ -1,6 +1,7 @@
 """Laws of view planning: free air, the own room, numbers, names, what the views see; held-out views and the walk besides."""
 
 import dataclasses
+import functools
 
 import numpy as np
 import pytest
@@ -37,16 +38,21 @@ def furnished():
 CASES = {
     "one": lambda: (one_room(), build_structure(one_room())),
     "concave": lambda: (l_shaped(), build_structure(l_shaped())),
-    "random": lambda: (random_plan(3, 4), build_structure(random_plan(3, 4))),
+    "random": lambda: (random_plan(3, 3), build_structure(random_plan(3, 3))),
     "furnished": lambda: furnished()[:2],
 }
 
 
-@pytest.fixture(scope="module", params=CASES)
-def planned(request):
-    plan, mesh = CASES[request.param]()
+@functools.cache
+def case(name):
+    plan, mesh = CASES[name]()
     views = place_cameras(plan, mesh, SMALL)
     return plan, mesh, views, place_heldout(plan, mesh, views, SMALL)
+
+
+@pytest.fixture(params=CASES)
+def planned(request):
+    return case(request.param)
 
 
 def centers(views):
@@ -125,16 +131,15 @@ def test_the_views_cover_the_reachable_surface(planned):
 
 
 def test_bootstrap_views_face_each_other_from_the_short_sides():
-    plan = one_room()
-    first, second = (view.camera for view in place_cameras(plan, build_structure(plan), SMALL)[:2])
+    first, second = (view.camera for view in case("one")[2][:2])
     np.testing.assert_allclose(np.sort([camera_center(first)[0], camera_center(second)[0]]), [0.55, 4.45], atol=1e-6)
     np.testing.assert_allclose(camera_rotation(first)[2], -camera_rotation(second)[2], atol=1e-6)
     np.testing.assert_allclose([camera_center(first)[1], camera_center(second)[1]], 2.0, atol=1e-6)
 
 
 def test_the_same_scene_gives_the_same_views():
-    plan, mesh, _ = furnished()
-    one, two = place_cameras(plan, mesh, SMALL), place_cameras(plan, mesh, SMALL)
+    plan, mesh, one, _ = case("furnished")
+    two = place_cameras(plan, mesh, SMALL)
     assert [view.name for view in one] == [view.name for view in two]
     for a, b in zip(one, two):
         assert a.camera.T_cam_world.tobytes() == b.camera.T_cam_world.tobytes()
@@ -176,10 +181,8 @@ def test_heldout_views_are_free_and_apart_from_training(planned):
 
 
 def test_heldout_views_look_at_objects_from_near():
-    plan, mesh, objects = furnished()
-    views = place_heldout(plan, mesh, place_cameras(plan, mesh, SMALL), SMALL)
-    near = 0
-    for view in views:
+    objects, near = furnished()[2], 0
+    for view in case("furnished")[3]:
         eye, look = camera_center(view.camera), camera_rotation(view.camera)[2]
         for thing in objects:
             low, high = thing.vertices.min(axis=0), thing.vertices.max(axis=0)
@@ -194,9 +197,8 @@ def test_no_heldout_views_when_none_are_wanted():
     assert place_heldout(plan, build_structure(plan), [], dataclasses.replace(SMALL, heldout_per_room=0)) == []
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_the_walk_visits_every_room_and_passes_through_nothing(case):
-    plan, mesh = CASES[case]()
+def test_the_walk_visits_every_room_and_passes_through_nothing(planned):
+    plan, mesh, _, _ = planned
     walk = walkthrough(plan, mesh, SMALL, fps=12, speed=1.4)
     eyes = np.array([camera_center(camera) for camera in walk])
     looks = np.array([camera_rotation(camera)[2] for camera in walk])

@@ -85,9 +85,9 @@ def test_coverage_counts_views_and_grows_with_them():
     plan = two_rooms()
     mesh = build_structure(plan)
     views = [view_of([0.6, 2, 1.6], [5, 2, 1.2]), view_of([4.4, 1, 1.6], [0, 2, 1.2]), view_of([8.4, 2, 1.6], [5, 2, 1.2])]
-    shares = [coverage(plan, mesh, views[:k]) for k in (1, 2, 3)]
-    assert shares[0].once < shares[1].once < shares[2].once < 1.0
-    assert shares[0].three == shares[1].three == 0.0
+    shares = [coverage(plan, mesh, views[:k]) for k in (1, 3)]
+    assert 0.0 < shares[0].once < shares[1].once < 1.0
+    assert shares[0].three == 0.0
     thrice = coverage(plan, mesh, views[:1] * 3)
     assert thrice.three == thrice.once == shares[0].once
 
