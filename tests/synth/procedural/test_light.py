@@ -13,6 +13,7 @@ from wm.synth.procedural.color import LUMINANCE
 from wm.synth.procedural.light import (
     BakeSettings,
     LightPoints,
+    Sources,
     bake,
     build_facets,
     build_probes,
@@ -34,7 +35,7 @@ def points_of(scene, room, *, albedo, glow=0.0, settings=COARSE):
     return LightPoints(
         charts=charts,
         facets=facets,
-        probes=build_probes(facets, spacing=1.0, budget=10),
+        probes=build_probes(facets, np.zeros(0, bool), spacing=1.0, budget=10),
         facet_faces=np.full(len(scene.mesh.faces), -1, np.int32),
         position=luxel_positions(charts),
         normal=charts.atlas.chart_normal[number],
@@ -52,11 +53,11 @@ def scene():
 def lit(scene, *, albedo=0.5, seed=0, settings: BakeSettings = COARSE):
     light = style_of("gothic").light
     points = points_of(scene, 0, albedo=albedo, settings=settings)
-    field = bake(
-        scene, points, pane_emitters(scene.mesh, 0, light), [], sun=sun_direction(scene.mesh, light),
-        sun_radiance=np.array([1.0, 0.9, 0.8], np.float32), day=0.8, evening=0.0, eye=np.array([1.7, 1.4, 1.6]), seed=seed,
-        settings=settings,
+    sources = Sources(
+        panes=pane_emitters(scene.mesh, 0, light), lamps=[], sun=sun_direction(scene.mesh, light),
+        sun_light=np.array([1.0, 0.9, 0.8], np.float32), day=0.8, evening=0.0,
     )  # fmt: skip
+    field = bake(scene, points, sources, eye=np.array([1.7, 1.4, 1.6]), seed=seed, settings=settings)
     return points, field
 
 
@@ -83,7 +84,7 @@ def test_white_furnace_stays_within_its_energy(scene):
     """A closed, glowing room of albedo a and radiance 1: every bounce adds a^k, and the series never exceeds 1 / (1 - a)."""
     points = points_of(scene, 1, albedo=0.5, glow=1.0)
     live = np.flatnonzero(points.live)
-    hits, _, _ = traced(scene, points, live, 64, 0)
+    hits, _, _, _ = traced(scene, points, live, 64, 0)
     table = np.ones((len(points.live) + 1, 1), np.float32)
     e = np.zeros_like(table)
     for _ in range(12):
@@ -107,10 +108,11 @@ def test_a_room_without_window_or_door_to_light_stays_dark(scene):
     light = style_of("gothic").light
     points = points_of(scene, 1, albedo=0.2)
     sealed = [dataclasses.replace(e, radiance=e.radiance * 0) for e in pane_emitters(scene.mesh, 0, light)]
-    field = bake(
-        scene, points, sealed, [], sun=np.array([0.0, 0.0, 1.0]), sun_radiance=np.zeros(3, np.float32), day=0.5, evening=0.0,
-        eye=np.array([4.4, 1.4, 1.6]), seed=0, settings=dataclasses.replace(COARSE, ambient=0.0),
-    )  # fmt: skip
+    sources = Sources(
+        panes=sealed, lamps=[], sun=np.array([0.0, 0.6, 0.8]), sun_light=np.zeros(3, np.float32), day=0.5, evening=0.0
+    )
+    eye = np.array([4.4, 1.4, 1.6])
+    field = bake(scene, points, sources, eye=eye, seed=0, settings=dataclasses.replace(COARSE, ambient=0.0))
     assert field.irradiance.max() == 0
 
 
@@ -135,12 +137,12 @@ def test_facet_weights_are_linear_and_continuous():
 def test_probes_mix_to_one_and_never_across_a_crease():
     thing = box("box", (0, 0, 0), (1.0, 0.6, 0.8), "wood")
     facets = build_facets(thing.vertices, thing.faces, spacing=0.1)
-    probes = build_probes(facets, spacing=0.3, budget=1000)
+    probes = build_probes(facets, np.ones(len(facets.position), bool), spacing=0.3, budget=1000)
     assert len(probes.position) < len(facets.position)
     for matrix in (probes.mix, probes.average):
         np.testing.assert_allclose(np.asarray(matrix.sum(axis=1)).ravel(), 1, atol=1e-5)
     np.testing.assert_allclose(probes.normal[probes.nearest], facets.normal, atol=1e-6)
-    few = build_probes(facets, spacing=0.3, budget=12)
+    few = build_probes(facets, np.ones(len(facets.position), bool), spacing=0.3, budget=12)
     assert len(few.position) <= 12
 
 

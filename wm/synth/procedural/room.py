@@ -13,12 +13,13 @@ from wm.synth.procedural.light import (
     BakeSettings,
     LightPoints,
     Probes,
-    Sources,
     RoomCharts,
+    Sources,
     bake,
     build_facets,
     build_probes,
     ceiling_emitters,
+    exposed,
     lamp_emitters,
     luxel_positions,
     pane_emitters,
@@ -61,14 +62,16 @@ def bake_room(
     with ThreadPoolExecutor(2) as pool:
         sheets = list(pool.map(lambda chart: dress(chart, _gaps(plan, room, chart), interior), spans))
     pieces, facets, facet_faces = _objects(scene, room, objects, style, interior.seed, settings)
-    probes = build_probes(facets, spacing=settings.probe_spacing, budget=settings.probes)
+    probes = build_probes(
+        facets, exposed(scene, facets.position, facets.normal), spacing=settings.probe_spacing, budget=settings.probes
+    )
     points = _light_points(charts, sheets, pieces, facets, facet_faces, probes)
     light = style.light
     sources = Sources(
         panes=pane_emitters(scene.mesh, room, light),
         lamps=lamp_emitters(objects, room, light) or ceiling_emitters(interior.polygon, interior.height, light),
         sun=sun,
-        sun_light=soften(light.sun_color) * np.float32(1.6 * light.sun_strength),
+        sun_light=soften(light.sun_color) * np.float32(3.2 * light.sun_strength),
         day=0.3 + 0.4 * light.sky_strength + 0.2 * light.sun_strength,
         evening=light.lamp_strength,
     )

@@ -15,10 +15,10 @@ from wm.synth.procedural.light.sources import (
     soften,
     sun_direction,
 )
+from wm.synth.procedural.light.transport import exposed
 
 __all__ = [
-    "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "Probes", "RoomCharts",
-    "Sources", "bake", "build_facets", "build_probes", "ceiling_emitters",
-    "chart_places", "facet_weights", "glow_color", "lamp_emitters", "look_up", "luxel_positions", "pane_emitters", "room_charts", "soften",
-    "sun_direction",
+    "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "Probes", "RoomCharts", "Sources", "bake", "build_facets",
+    "build_probes", "ceiling_emitters", "chart_places", "exposed", "facet_weights", "glow_color", "lamp_emitters", "look_up",
+    "luxel_positions", "pane_emitters", "room_charts", "soften", "sun_direction",
 ]  # fmt: skip

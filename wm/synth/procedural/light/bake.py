@@ -23,8 +23,9 @@ from wm.synth.procedural.light.transport import directions_about, in_chunks, mir
 
 BURIED = 0.5
 """Share of rays that hit a surface from behind, above which a point lies inside a solid and its darkness is nobody's."""
-BRIGHT = 0.9
-"""e above which light is compressed: what an eye does that looks at a lamp's wall and at the room in one glance."""
+BRIGHT, RANGE = 1.4, 1.3
+"""In multiples of a room's target: e above which light is compressed, and how far beyond it ends. What an eye does that looks at
+the wall behind a lamp and at the room in one glance."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -60,7 +61,7 @@ class BakeSettings:
     rays: int = 80  # a point
     sun_rays: int = 6  # a point
     bounces: int = 4
-    target: float = 0.235  # mean radiance that a room is lit to
+    target: float = 0.22  # mean radiance that a room is lit to
     ambient: float = 0.05  # share of the mean e that reaches even hidden places
 
 
@@ -89,10 +90,10 @@ def bake(
     field = _bounced(points, live, direct, hits, settings.bounces)
 
     mean_albedo = max(float(_mean(points.albedo, points.live) @ LUMINANCE), 0.05)
-    target = float(np.clip(settings.target / mean_albedo, 0.34, 0.9))
+    target = float(np.clip(settings.target / mean_albedo, 0.34, 0.6))
     factors = np.repeat(_balance(points, field, sources, target), 3)
     total = (field * factors).reshape(-1, 3, 3).sum(axis=1) + np.float32(settings.ambient * target)
-    total = _compressed(total)
+    total = _compressed(total, BRIGHT * target, RANGE * target)
     radiance = points.albedo * total + points.glow
     table = np.concatenate([radiance, _mean(radiance, points.live)[None]])
     bend, mirror = np.zeros((2, len(points.live), 3), np.float32)
@@ -144,11 +145,11 @@ def _balance(points: LightPoints, field: np.ndarray, sources: Sources, target: f
     return np.array([daylight, missing / max(lamps, 1e-6), sunlight], np.float32)
 
 
-def _compressed(e: np.ndarray) -> np.ndarray:
-    """e with its luminance above BRIGHT led towards BRIGHT + 0.55, hue kept."""
+def _compressed(e: np.ndarray, knee: float, span: float) -> np.ndarray:
+    """e with its luminance above `knee` led towards knee + span, hue kept."""
     luminance = e @ LUMINANCE
-    excess = np.maximum(luminance - BRIGHT, 0)
-    shown = np.minimum(luminance, BRIGHT) - 0.55 * np.expm1(-excess / 0.55)
+    excess = np.maximum(luminance - knee, 0)
+    shown = np.minimum(luminance, knee) - span * np.expm1(-excess / span)
     return (e * (shown / np.maximum(luminance, 1e-6))[:, None]).astype(np.float32)
 
 

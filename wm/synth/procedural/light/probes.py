@@ -8,6 +8,7 @@ normal, so that light is smooth over a surface and still breaks at its creases.
 import dataclasses
 
 import numpy as np
+from jaxtyping import Bool
 from scipy.sparse import csr_array
 from scipy.spatial import KDTree
 
@@ -30,10 +31,14 @@ class Probes:
     average: csr_array  # [p, p] float32 each probe with its neighbours: what light is smoothed by
 
 
-def build_probes(facets: Facets, *, spacing: float, budget: int) -> Probes:
-    """Probes about `spacing` metres apart; farther where there would be more than `budget` of them."""
-    count = len(facets.position)
-    if count == 0:
+def build_probes(facets: Facets, exposed: Bool[np.ndarray, "q"], *, spacing: float, budget: int) -> Probes:
+    """Probes about `spacing` metres apart; farther where there would be more than `budget` of them.
+
+    Args:
+      exposed: which corners stand in free air. Corners buried in another part (the top of a board under a table top) never
+        stand for others; where nothing is exposed, all count.
+    """
+    if len(facets.position) == 0:
         empty = csr_array((0, 0), dtype=np.float32)
         return Probes(
             position=facets.position,
@@ -43,11 +48,13 @@ def build_probes(facets: Facets, *, spacing: float, budget: int) -> Probes:
             mix=empty,
             average=empty,
         )
-    group, cell = _groups(facets, spacing), spacing
+    able = np.flatnonzero(exposed) if exposed.any() else np.arange(len(exposed))
+    place, normal = facets.position[able], facets.normal[able]
+    group, cell = _groups(place, normal, spacing), spacing
     while int(group.max()) + 1 > budget:
         cell *= 1.3
-        group = _groups(facets, cell)
-    chosen = _representatives(facets.position, group)
+        group = _groups(place, normal, cell)
+    chosen = able[_representatives(place, group)]
     feature = np.concatenate([facets.position / cell, TURN * facets.normal], axis=1)
     tree = KDTree(feature[chosen])
     mix, nearest = _mixing(tree, feature, min(NEIGHBOURS, len(chosen)), width=0.6)
@@ -62,11 +69,11 @@ def build_probes(facets: Facets, *, spacing: float, budget: int) -> Probes:
     )
 
 
-def _groups(facets: Facets, cell: float) -> np.ndarray:
+def _groups(position: np.ndarray, normal: np.ndarray, cell: float) -> np.ndarray:
     """[q] int: number of the group of each corner, by grid cell and the axis nearest to its normal."""
-    place = np.floor((facets.position - facets.position.min(axis=0)) / cell).astype(np.int64)
-    axis = np.argmax(np.abs(facets.normal), axis=1)
-    sign = np.take_along_axis(facets.normal, axis[:, None], axis=1)[:, 0] > 0
+    place = np.floor((position - position.min(axis=0)) / cell).astype(np.int64)
+    axis = np.argmax(np.abs(normal), axis=1)
+    sign = np.take_along_axis(normal, axis[:, None], axis=1)[:, 0] > 0
     key = place[:, 0] | (place[:, 1] << 18) | (place[:, 2] << 36) | ((2 * axis + sign).astype(np.int64) << 54)
     return np.unique(key, return_inverse=True)[1].ravel()
 

@@ -68,6 +68,22 @@ def sunlight(
     return total
 
 
+def exposed(scene: RayScene, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """[n] bool: whether a point on a surface stands in free air: most of five rays from it meet no surface from behind."""
+    free = np.empty(len(position), bool)
+    tilted = np.array([[0.0, 0.0, 1.0], [0.8, 0.1, 0.6], [-0.7, 0.2, 0.7], [0.1, 0.8, 0.6], [-0.2, -0.7, 0.7]], np.float32)
+
+    def look_about(part: slice) -> None:
+        directions = np.matmul(tilted, _frames(normal[part])).reshape(-1, 3)
+        origins = (position[part] + 2e-3 * normal[part]).astype(np.float32)
+        found = cast_rays(scene, np.repeat(origins, len(tilted), axis=0), directions)
+        inward = np.einsum("ri,ri->r", directions, scene.normals[found.face]) > 0
+        free[part] = inward.reshape(-1, len(tilted)).sum(axis=1) < 3
+
+    in_chunks(look_about, len(position), rows=6000)
+    return free
+
+
 def traced(
     scene: RayScene, points: LightPoints, live: np.ndarray, rays: int, seed: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -129,13 +145,17 @@ def mirrored(scene: RayScene, points: LightPoints, live: np.ndarray, table: np.n
 
 def directions_about(normal: np.ndarray, index: np.ndarray, rays: int, seed: int) -> np.ndarray:
     """[r, rays, 3] float32 cosine-weighted about each normal; which of the sets a point takes depends on its index."""
+    chosen = hash_cells(index.astype(np.int32), index.astype(np.int32), 1, seed) & np.uint32(63)
+    return np.matmul(_direction_sets(rays, seed)[chosen], _frames(normal))
+
+
+def _frames(normal: np.ndarray) -> np.ndarray:
+    """[n, 3, 3] float32 rows of a right-handed frame whose third axis is the normal."""
     n = normal.astype(np.float32)
     helper = np.where(np.abs(n[:, 2:]) < 0.9, np.array([[0, 0, 1]], np.float32), np.array([[1, 0, 0]], np.float32))
     a = np.cross(helper, n)
     a /= np.linalg.norm(a, axis=1, keepdims=True)
-    frame = np.stack([a, np.cross(n, a), n], axis=1)
-    chosen = hash_cells(index.astype(np.int32), index.astype(np.int32), 1, seed) & np.uint32(63)
-    return np.matmul(_direction_sets(rays, seed)[chosen], frame)
+    return np.stack([a, np.cross(n, a), n], axis=1)
 
 
 @functools.lru_cache(maxsize=4)
@@ -191,8 +211,8 @@ def _jitter(index: np.ndarray, seed: int, count: int) -> np.ndarray:
     return (bits >> np.uint32(8)).astype(np.float32) * np.float32(2.0**-24)
 
 
-def in_chunks(work: Callable[[slice], None], count: int) -> None:
+def in_chunks(work: Callable[[slice], None], count: int, *, rows: int = _ROWS) -> None:
     """Run `work` on slices of range(count), two at a time; each writes into its own part of its result."""
-    parts = [slice(begin, min(begin + _ROWS, count)) for begin in range(0, count, _ROWS)]
+    parts = [slice(begin, min(begin + rows, count)) for begin in range(0, count, rows)]
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(work, parts))

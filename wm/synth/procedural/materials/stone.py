@@ -17,7 +17,7 @@ from wm.synth.procedural.materials.surface import (
     tile_grid,
     vary,
 )
-from wm.synth.procedural.noise import cells, fbm, random_cells, visible
+from wm.synth.procedural.noise import cells, edge, fbm, random_cells, visible
 
 
 def marble(p: Points, finish: Finish, seed: int) -> Surface:
@@ -143,9 +143,8 @@ def concrete(p: Points, finish: Finish, seed: int) -> Surface:
     )
     stain = np.clip(fbm((p.u, p.v * F32(0.25)), wavelength=0.6, octaves=3, footprint=p.footprint, seed=seed + 5) - F32(0.1), 0, 1)
     color = mix(color, ink(finish, 1, shade=0.7), stain * F32(0.2 + 0.5 * finish.wear))
-    hole = np.clip(
-        (F32(0.018) - np.hypot(np.abs(du) - F32(0.5 * lift), dv)) / np.maximum(p.footprint, F32(1e-3)) + F32(0.5), 0, 1
-    )
+    radius = F32(0.018)
+    hole = edge(radius - np.hypot(np.abs(du) - F32(0.5 * lift), dv), p.footprint) * np.minimum(2 * radius / p.footprint, 1) ** 2
     seam = np.maximum(joints(dv, lift, 0.008, p.footprint), joints(du, 2 * lift, 0.008, p.footprint))
     color = color * (F32(1) - F32(0.45) * np.maximum(hole, F32(0.6) * seam))
     return Surface(albedo=color.astype(F32), roughness=finish.roughness, height=F32(-2e-3) * seam)
