@@ -29,6 +29,7 @@ from wm.schema import CameraSettings
 from wm.types import Camera, Mesh, View
 
 MEDIAN_DEPTH = 0.8  # metres a view should see (`openness`); less in rooms narrower than that
+_BOOTSTRAP = 2.0  # times that for a bootstrap view: the whole room is imagined from it
 TURN = 30.0  # degrees to either side of the middle that a perimeter or overhead view may look
 LOWER = 0.5  # metres below eye level at which a perimeter view may stand: what is under shelves is seen from there only
 _TILTS = (-30.0, -15.0, 0.0, 15.0, 30.0)  # degrees of a perimeter view above the horizon
@@ -64,9 +65,17 @@ def place_cameras(plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAU
 
 
 def settle(
-    air: RoomAir, wanted: Iterable[np.ndarray], aim: Callable[[np.ndarray], np.ndarray], settings: CameraSettings
+    air: RoomAir,
+    wanted: Iterable[np.ndarray],
+    aim: Callable[[np.ndarray], np.ndarray],
+    settings: CameraSettings,
+    *,
+    depth: float,
 ) -> list[Camera]:
-    """For each wanted position a camera at the nearest good one, `aim` telling the target from a position."""
+    """For each wanted position a camera at the nearest one that sees `depth` far, else at the one near it that sees farthest.
+
+    `aim` tells the target from a position.
+    """
     cameras: list[Camera] = []
     taken = np.zeros((0, 3))
     for position in wanted:
@@ -76,7 +85,7 @@ def settle(
         for spot in (near[apart] if apart.any() else near)[:_TRIES]:
             tried.append(make_view_camera(spot, aim(spot), settings))
             depths.append(openness(air.scene, tried[-1:])[0])
-            if depths[-1] >= depth_wanted(air):
+            if depths[-1] >= depth:
                 break
         cameras.append(tried[int(np.argmax(depths))])
         taken = np.concatenate([taken, camera_center(cameras[-1])[None]])
@@ -124,7 +133,7 @@ def _room_cameras(
     plan: FloorPlan, air: RoomAir, points: SurfacePoints, settings: CameraSettings
 ) -> dict[str, list[Camera]]:
     sides = short_sides(air)
-    bootstrap = settle(air, _at(sides, air.eye_height), lambda spot: np.append(look_point(air, spot[:2]), spot[2]), settings)
+    bootstrap = settle(air, _at(sides, air.eye_height), _level(air), settings, depth=_BOOTSTRAP * depth_wanted(air))
     doors = [portal for portal in portals(plan) if portal.kind != "window" and air.index in portal.rooms and settings.doorway]
     doorway = [camera for camera in (door_camera(air, portal, settings, step=0.0) for portal in doors) if camera is not None]
     perimeter = _distinct(_options(air, sides[0], settings, "perimeter"), bootstrap, settings)
@@ -155,7 +164,7 @@ def _options(air: RoomAir, start: np.ndarray, settings: CameraSettings, kind: st
         "overhead": (settings.overhead, 0.0, air.high, air.high - 0.3, _OVERHEAD_TILTS),
     }[kind]
     wanted = _at(walk_line(air, start, count, phase), height)
-    settled = settle(air, wanted, lambda spot: np.append(look_point(air, spot[:2]), spot[2] - drop), settings)
+    settled = settle(air, wanted, _level(air, drop), settings, depth=depth_wanted(air))
     places = [_elsewhere(air, position, camera_center(camera)) for position, camera in zip(wanted, settled)]
     if kind == "perimeter":
         places = [np.concatenate([place, _lower(air, place)]) for place in places]
@@ -176,6 +185,11 @@ def _options(air: RoomAir, start: np.ndarray, settings: CameraSettings, kind: st
         looks = np.column_stack([np.repeat(levels[own], len(rises), axis=0), np.tile(rises, len(own))])
         options.append(Aims(eyes=np.repeat(eyes[own], len(rises), axis=0), looks=looks))
     return options
+
+
+def _level(air: RoomAir, drop: float = 0.0) -> Callable[[np.ndarray], np.ndarray]:
+    """From a position, its look point, as high or `drop` lower."""
+    return lambda spot: np.append(look_point(air, spot[:2]), spot[2] - drop)
 
 
 def _distinct(options: list[Aims], bootstrap: list[Camera], settings: CameraSettings) -> list[Aims]:
