@@ -109,7 +109,7 @@ class FitSettings:
     lr_quats: float = 1e-3
     lr_scales: float = 5e-3
     lr_opacities: float = 5e-2
-    lr_sh: float = 5e-3
+    lr_sh: float = 2.5e-2
     lr_final: float = 0.1  # learning rates decay to this share
     sh_degree: int = 0
     curve_points: int = 6  # held-out evaluations along the fit

@@ -61,6 +61,11 @@ def test_gradient_against_float64_differences_under_a_cotangent_map(argument):
         np.testing.assert_allclose(gradient[index], (values[0] - values[1]) / (2 * step), rtol=2e-4, atol=1e-5)
 
 
+def test_the_passes_stay_apart_when_compiled():
+    x = jnp.zeros((8, 8, 3))
+    assert jitted_map.lower(x, x).compile().as_text().count(" conditional(") == 10  # two passes of five images
+
+
 def test_constant_images_have_finite_gradients():
     value_and_grad = jax.jit(jax.value_and_grad(ssim))
     for value in (0.0, 0.5, 1.0):
