@@ -65,23 +65,33 @@ def dot(image: Render, weights: Render):
     return sum((a * b).sum() for a, b in zip(jax.tree.leaves(image), jax.tree.leaves(weights)))
 
 
-def loss(renderer, weights: Render, view: Camera, settings, gaussians, T_cam_world, background):
-    moved = Camera(T_cam_world=T_cam_world, focal=view.focal, principal=view.principal, width=view.width, height=view.height)
-    return dot(renderer(gaussians, moved, background=background, settings=settings), weights)
+def _gradient(renderer):
+    def total(gaussians, view, background, weights, settings):
+        return dot(renderer(gaussians, view, background=background, settings=settings), weights)
+
+    return jax.jit(jax.grad(total, (0, 1, 2)), static_argnames="settings")
 
 
-def gradients(gaussians: Gaussians, view: Camera, background, settings=SMOOTH, seed=1):
-    """(fast, exact) gradients by (gaussians, pose, background) under one random cotangent."""
-    arguments = (gaussians, view.T_cam_world, background)
-    weights = cotangent(view, seed)
-    by_all = lambda renderer: jax.grad(lambda g, T, b: loss(renderer, weights, view, settings, g, T, b), (0, 1, 2))  # noqa: E731
-    found = by_all(render)(*to_float32(arguments))
+fast_gradient = _gradient(render)
+"""(gaussians, camera, background, weights, settings) -> gradients by the first three of the weighted sum of the image."""
+exact_gradient = _gradient(render_reference)
+
+
+def gradients(gaussians: Gaussians, view: Camera, background, settings: RasterSettings = SMOOTH, seed=1):
+    """(fast, exact) gradients by gaussians, camera and background under one random cotangent.
+
+    Depth is weighted with alpha: where next to nothing is seen, depth is next to nothing divided by next to nothing.
+    """
+    arguments, weights = (gaussians, view, background), cotangent(view, seed)
     with jax.enable_x64(True):
-        exact = by_all(jit_reference)(*to_float64(arguments))
+        alpha = jit_reference(*to_float64((gaussians, view)), settings=settings).alpha
+        weights = weights.replace(depth=weights.depth * np.asarray(alpha))
+        exact = exact_gradient(*to_float64(arguments), to_float64(weights), settings=settings)
+    found = fast_gradient(*to_float32(arguments), to_float32(weights), settings=settings)
     return to_float64(found), to_float64(exact)
 
 
-def images(gaussians: Gaussians, view: Camera, background=None, settings=RasterSettings()):  # noqa: B008
+def images(gaussians: Gaussians, view: Camera, background=None, settings: RasterSettings = SMOOTH):
     """(fast, exact) renders as float64 NumPy."""
     found = render(to_float32(gaussians), view, background=background, settings=settings)
     with jax.enable_x64(True):

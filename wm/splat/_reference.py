@@ -11,6 +11,7 @@ from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
 from wm.splat.harmonics import harmonics
+from wm.splat.project import DEFAULTS
 from wm.types import Camera, Gaussians, Render
 
 
@@ -19,14 +20,14 @@ def render_reference(
     camera: Camera,
     *,
     background: Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"] | None = None,
-    settings: RasterSettings = RasterSettings(),
+    settings: RasterSettings = DEFAULTS,
 ) -> Render:
     """What `render` promises, in float64; call it, and differentiate it, under `with jax.enable_x64(True)`.
 
     Raises:
         RuntimeError: float64 is not enabled.
     """
-    if not jax.config.jax_enable_x64:
+    if jnp.zeros(()).dtype != jnp.float64:
         raise RuntimeError("render_reference computes in float64: call it under `with jax.enable_x64(True)`")
     gaussians, camera = jax.tree.map(lambda x: jnp.asarray(x, jnp.float64), (gaussians, camera))
     R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
@@ -84,4 +85,5 @@ def _color(gaussians: Gaussians, centre):
     # at the camera's centre there is no direction; such gaussians are culled, only a finite number is wanted here
     away = jnp.where(jnp.any(away != 0, axis=1, keepdims=True), away, 1.0)
     basis = harmonics((away / jnp.linalg.norm(away, axis=1, keepdims=True)).T, degree)
-    return 0.5 + sum(jnp.broadcast_to(Y, away.shape[:1])[:, None] * gaussians.sh[:, k] for k, Y in enumerate(basis))
+    parts = (jnp.broadcast_to(Y, away.shape[:1])[:, None] * gaussians.sh[:, k] for k, Y in enumerate(basis))
+    return sum(parts, jnp.full(3, 0.5))

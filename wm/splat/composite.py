@@ -17,10 +17,8 @@ the overhead of a loop iteration is paid once for block x tile^2 x chunk pairs. 
 its argument (clamp, cut, end of the list), because XLA on a CPU computes an exponential once and cheap operations once a use.
 """
 
-import functools
 from typing import Any
 
-import chex
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -28,9 +26,9 @@ from jaxtyping import Array, Float
 
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
-from wm.splat.project import Projected
+from wm.splat.project import DEFAULTS, Projected
 from wm.splat.tiles import TilePlan
-from wm.types import Render
+from wm.types import Render, record
 
 GEOMETRY = 6
 """Columns of the table before the features: mean x, y, root l0, l1, l2 over sqrt 2, log opacity."""
@@ -39,7 +37,7 @@ CLAMPED = 1e-6
 """Alphas closer than this (relative) to alpha_max are the clamped ones: the exponential of the clamp rounds."""
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@record
 class Composite:
     """Result of the compositing, lane by lane as the plan orders the tiles (blocks and lanes flattened)."""
 
@@ -53,12 +51,8 @@ def rasterize(
     plan: TilePlan,
     width: int,
     height: int,
-    settings: RasterSettings = RasterSettings(),
-    background: Float[Array, "3"]
-    | Float[Array, "h w 3"]
-    | Float[np.ndarray, "3"]
-    | Float[np.ndarray, "h w 3"]
-    | None = None,
+    settings: RasterSettings = DEFAULTS,
+    background: Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"] | None = None,
 ) -> Render:
     """The image of projected gaussians; pure, jittable, differentiable in `projected` and `background`.
 
@@ -97,8 +91,7 @@ def _image(lanes: Float[Array, "lanes pixels"], plan: TilePlan, width: int, heig
     return jnp.swapaxes(tiles, 1, 2).reshape(rows * tile, columns * tile)[:height, :width]
 
 
-@functools.partial(jax.custom_vjp, nondiff_argnums=(2, 3))
-def _composite(table, plan: TilePlan, columns: int, settings: RasterSettings) -> Composite:
+def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> Composite:
     features = table.shape[1] - GEOMETRY
 
     def block(lanes):
@@ -126,8 +119,11 @@ def _composite(table, plan: TilePlan, columns: int, settings: RasterSettings) ->
     return jax.tree.map(lambda x: x.reshape(-1, *x.shape[2:]), blocks)
 
 
+_composite = jax.custom_vjp(_forward, nondiff_argnums=(2, 3))
+
+
 def _composite_fwd(table, plan: TilePlan, columns: int, settings: RasterSettings):
-    composite = _composite(table, plan, columns, settings)
+    composite = _forward(table, plan, columns, settings)
     return composite, (table, plan, composite)
 
 

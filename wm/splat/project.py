@@ -13,10 +13,10 @@ holds, so NaN culls; culled ones have opacity and extent 0 and no gradient.
 Work: once per view, O(n).
 """
 
+import dataclasses
 import functools
 from typing import Any
 
-import chex
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
@@ -24,13 +24,16 @@ from jaxtyping import Array, Bool, Float
 from wm.numerics import normalize_quat, safe_div, safe_norm
 from wm.schema import RasterSettings
 from wm.splat.harmonics import harmonics
-from wm.types import Camera, Gaussians
+from wm.types import Camera, Gaussians, record
+
+DEFAULTS = RasterSettings()
+"""The rasterizer's constants when a caller names none; one record for all, since settings are static under jit."""
 
 FARTHEST = 1e9
 """Ellipses whose centre or size exceeds this many pixels are culled: float32 has no digits left there, and q stays finite."""
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@record
 class Projected:
     """Gaussians on the image plane, on the device, channel-first. Culled ones have opacity 0 and extent 0."""
 
@@ -42,7 +45,7 @@ class Projected:
     extent: Any  # [2, n] half width and half height of the ellipse where alpha falls to `alpha_min`, px; no gradient
 
 
-def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = RasterSettings()) -> Projected:
+def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEFAULTS) -> Projected:
     """Gaussians as the camera sees them; differentiable in the gaussians and in the camera's arrays.
 
     Args:
@@ -72,7 +75,7 @@ def _project_fwd(gaussians: Gaussians, camera: Camera, settings: RasterSettings)
     ratio = jnp.where(visible, raw.opacity, settings.alpha_min) / settings.alpha_min
     extent = jnp.sqrt(2 * jnp.log(ratio) * jnp.where(visible, covariance, 0.0))
     shown = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), raw)
-    return shown.replace(extent=extent), (gaussians, camera, visible)
+    return dataclasses.replace(shown, extent=extent), (gaussians, camera, visible)
 
 
 def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
@@ -81,7 +84,7 @@ def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
     gaussians, camera, visible = residuals
     _, pull = jax.vjp(lambda g, c: _ellipses(g, c, settings, visible)[0], gaussians, camera)
     masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), cotangent)
-    return pull(masked.replace(extent=jnp.zeros_like(masked.extent)))
+    return pull(dataclasses.replace(masked, extent=jnp.zeros_like(masked.extent)))
 
 
 _project.defvjp(_project_fwd, _project_bwd)
@@ -119,7 +122,7 @@ def _ellipses(
 
 
 def _clamped(a, b, camera: Camera, settings: RasterSettings):
-    """Slopes (a, b) held within the margin around the frustum, where the linearisation of the projection still means something."""
+    """Slopes (a, b) held within the margin around the frustum: farther out the linearised projection means nothing."""
     held = []
     for slope, focal, centre, size in zip((a, b), camera.focal, camera.principal, (camera.width, camera.height)):
         margin = (settings.frustum_margin - 1) * 0.5 * size / focal

@@ -4,11 +4,12 @@ import functools
 
 import jax
 import numpy as np
+from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
 from wm.splat.composite import rasterize
-from wm.splat.project import Projected, project
+from wm.splat.project import DEFAULTS, Projected, project
 from wm.splat.tiles import TilePlan, plan_tiles
 from wm.types import Camera, Gaussians, Render
 
@@ -24,7 +25,7 @@ def render(
     camera: Camera,
     *,
     background: Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"] | None = None,
-    settings: RasterSettings = RasterSettings(),
+    settings: RasterSettings = DEFAULTS,
 ) -> Render:
     """What a camera sees of gaussians; differentiable in the gaussians, the camera's arrays and the background.
 
@@ -46,7 +47,7 @@ def render(
     """
     size = (camera.width, camera.height)
     projected = _project(gaussians, camera, settings=settings)
-    if any(isinstance(x, jax.core.Tracer) for x in jax.tree.leaves(projected)):
+    if any(isinstance(x, Tracer) for x in jax.tree.leaves(projected)):
         plan = _plan_traced(jax.lax.stop_gradient(projected), *size, settings)
     else:
         plan = plan_tiles(projected, *size, settings)

@@ -9,11 +9,11 @@ Sorts are stable argsorts of uint16 keys, which NumPy does by radix. Order in a 
 
 from typing import Any
 
-import chex
 import numpy as np
 
 from wm.schema import RasterSettings
-from wm.splat.project import Projected
+from wm.splat.project import DEFAULTS, Projected
+from wm.types import record
 
 GROWTH, BASE = 1.5, 4096
 """Capacities are BASE * GROWTH^k: padded sizes that differ give few distinct shapes, hence few compilations."""
@@ -22,9 +22,12 @@ SLACK = 1e-3
 """Pixels by which ellipses are widened here, so that rounding never leaves out an entry that the compositing would count."""
 
 
-@chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)
+@record
 class TilePlan:
-    """The entries of every tile; plain arrays, so a plan is an argument of a jitted function. Tiles are taken in blocks of lanes."""
+    """The entries of every tile; plain arrays, so that a plan is an argument of a jitted function.
+
+    Tiles are taken in blocks; a lane is the place of one tile in its block.
+    """
 
     ids: Any  # [capacity] int32 gaussian of each entry, tile by tile, front to back; n (one past the last) beyond the entries
     tile: Any  # [blocks, lanes] int32 tile of each lane, row-major index; lanes without a tile repeat one with count 0
@@ -34,7 +37,7 @@ class TilePlan:
 
 
 def plan_tiles(
-    projected: Projected, width: int, height: int, settings: RasterSettings = RasterSettings(), *, capacity: int | None = None
+    projected: Projected, width: int, height: int, settings: RasterSettings = DEFAULTS, *, capacity: int | None = None
 ) -> TilePlan:
     """The plan of one image; it stays valid (approximately) while the gaussians move little.
 
