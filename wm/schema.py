@@ -99,9 +99,9 @@ class FitSettings:
     """Initialisation and optimisation of the gaussians (paper, "Geometry-Regularized 3DGS Scene Reconstruction")."""
 
     init: str = "flat"  # flat | isotropic | random
-    spacing: float = 0.03  # metres between gaussians of the initial cloud
+    spacing: float = 0.04  # metres between gaussians of the initial cloud
     opacity: float = 0.88  # initial
-    steps: int = 480  # optimiser steps per room
+    steps: int = 240  # optimiser steps per room
     rounds: int = 2  # rooms see their neighbours' latest gaussians this many times
     ssim_weight: float = 0.2
     depth_weight: float = 0.7  # per metre
@@ -147,6 +147,7 @@ class ImageConfig:
     name: str = "procedural"
     drift: float = 0.02  # standard deviation of the tone a view invents where its condition shows only depth
     supersampling: int = 2  # geometry samples per pixel side
+    texel_size: float = 0.01  # metres between texels of the offline world's surfaces; its light is as much coarser or finer
 
 
 @dataclass(kw_only=True, unsafe_hash=True)

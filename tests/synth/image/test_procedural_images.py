@@ -14,7 +14,10 @@ from wm.synth.procedural.world import World
 from wm.types import OUTSIDE, View
 
 VIEW = View(
-    make_camera(np.array([0.4, 0.5, 1.5]), np.array([2.4, 2.0, 0.9]), width=72, height=48, fov_deg=70.0), 0, "perimeter", "living/p0"
+    make_camera(np.array([0.4, 0.5, 1.5]), np.array([2.4, 2.0, 0.9]), width=72, height=48, fov_deg=70.0),
+    0,
+    "perimeter",
+    "living/p0",
 )
 
 
@@ -96,3 +99,9 @@ def test_a_condition_of_another_size_is_refused(world, shot):
 def test_the_registry_finds_it():
     backend = make_backend("image", ImageConfig(), furnished())
     assert isinstance(backend, ProceduralImages)
+
+
+@pytest.mark.parametrize("size", [0.0, -0.01, float("nan")])
+def test_a_texel_size_that_is_no_length_is_named(size):
+    with pytest.raises(ValueError, match=r"image\.texel_size"):
+        make_backend("image", ImageConfig(texel_size=size), furnished())

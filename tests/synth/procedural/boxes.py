@@ -10,19 +10,36 @@ from wm.synth.procedural.light import BakeSettings
 from wm.types import SceneObject
 
 PLAN = """{"metadata": {"units": "meters", "wall_thickness": 0.15, "default_ceiling_height": 2.6}, "rooms": [
- {"id": "living", "name": "living room", "floor_polygon": [[0, 0], [3.4, 0], [3.4, 2.8], [0, 2.8]], "ceiling_height": 2.6,
-  "openings": [{"type": "window", "wall_segment": [[0, 0], [3.4, 0]], "position": 1.0, "width": 1.2, "height": 1.3, "sill_height": 0.9},
-               {"type": "door", "wall_segment": [[3.4, 0], [3.4, 2.8]], "position": 1.6, "width": 0.9, "height": 2.0, "sill_height": 0}]},
+ {"id": "living", "name": "living room",
+  "floor_polygon": [[0, 0], [3.4, 0], [3.4, 2.8], [0, 2.8]], "ceiling_height": 2.6,
+  "openings": [
+   {"type": "window", "wall_segment": [[0, 0], [3.4, 0]], "position": 1.0, "width": 1.2, "height": 1.3, "sill_height": 0.9},
+   {"type": "door", "wall_segment": [[3.4, 0], [3.4, 2.8]], "position": 1.6, "width": 0.9, "height": 2.0, "sill_height": 0}]},
  {"id": "bath", "name": "bathroom", "floor_polygon": [[3.4, 0], [5.4, 0], [5.4, 2.8], [3.4, 2.8]], "ceiling_height": 2.6,
   "openings": []}], "objects": []}"""
 COARSE = BakeSettings(cell=0.2, spacing=0.4, probe_spacing=0.3, rays=24, sun_rays=2, bounces=3)
 
 
-def box(label: str, low: tuple[float, ...], high: tuple[float, ...], slot: str, *, room: int = 0, emission: float = 0.0) -> SceneObject:
+def box(
+    label: str, low: tuple[float, ...], high: tuple[float, ...], slot: str, *, room: int = 0, emission: float = 0.0
+) -> SceneObject:
     """An axis-aligned box of one slot, its colour a middle red."""
     a, b = np.array(low, float), np.array(high, float)
     unit = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
-    faces = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]]
+    faces = [
+        [0, 2, 1],
+        [0, 3, 2],
+        [4, 5, 6],
+        [4, 6, 7],
+        [0, 1, 5],
+        [0, 5, 4],
+        [1, 2, 6],
+        [1, 6, 5],
+        [2, 3, 7],
+        [2, 7, 6],
+        [3, 0, 4],
+        [3, 4, 7],
+    ]
     T_world_object = np.eye(4)
     T_world_object[:3, 3] = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, a[2]]
     return SceneObject(

@@ -1,4 +1,4 @@
-"""Laws that every material keeps: physical albedo, no randomness, no detail finer than the footprint, continuity in its colours."""
+"""Laws that every material keeps: physical albedo, no randomness, no detail finer than the footprint, its own colour."""
 
 import dataclasses
 

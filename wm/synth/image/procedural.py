@@ -2,9 +2,9 @@
 
 Given the condition X it returns
     out = W + known * lowpass(X - W) + (1 - known) * drift,
-W the world from this camera. Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the
-result are those of X) while the world's fine detail is restored; where X shows only depth the model invents: the world under a
-tone that drifts from view to view by a seeded gain and hue, smooth over the image. Objects that X shows keep their identity and
+W the world from this camera. Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of
+the result are those of X) while the world's fine detail is restored; where X shows only depth the model invents: the world under
+a tone that drifts from view to view by a seeded gain and hue, smooth over the image. Objects that X shows keep their identity and
 get the world's materials and light; objects that X leaves out are drawn all the same, with a stronger drift of their own.
 """
 
@@ -16,6 +16,7 @@ from scipy.ndimage import gaussian_filter, zoom
 
 from wm.schema import ImageConfig
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
+from wm.synth.procedural.room import bake_settings
 from wm.synth.procedural.world import Shot, World
 from wm.types import OUTSIDE, View
 
@@ -58,8 +59,9 @@ class ProceduralImages:
 
 
 def make(config: ImageConfig, context: SceneContext) -> ProceduralImages:
-    """The offline image backend of a scene."""
-    return ProceduralImages(world=World(context, supersampling=config.supersampling), config=config)
+    """The offline image backend of a scene. Raises: ValueError for a texel size that is not a positive length."""
+    world = World(context, supersampling=config.supersampling, settings=bake_settings(config.texel_size))
+    return ProceduralImages(world=world, config=config)
 
 
 def lowpass(image: Float[np.ndarray, "h w c"], weight: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w c"]:
@@ -106,7 +108,7 @@ def _object_drift(shot: Shot, amount: float, rng: np.random.Generator) -> np.nda
 def _stretched(knots: np.ndarray, height: int, width: int) -> np.ndarray:
     rows, columns = knots.shape
     stretched = zoom(knots, (max(height, rows) / rows, max(width, columns) / columns), order=1, mode="nearest", grid_mode=True)
-    return stretched[:height, :width]
+    return np.asarray(stretched)[:height, :width]
 
 
 def _check_size(condition: Condition, shot: Shot) -> None:

@@ -1,7 +1,8 @@
 """The look of objects: which finish each face of each piece has, and the coordinates its pattern is laid in.
 
 A piece's mesh falls into parts (faces of one slot that hang together: a leg, a seat, a door). Solid materials are cut from a
-block of their own for every part, the grain along the part's longest side; laid patterns use the two axes across the face's normal.
+block of their own for every part, the grain along the part's longest side; laid patterns use the two axes across the face's
+normal.
 """
 
 import dataclasses

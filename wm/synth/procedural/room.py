@@ -71,9 +71,10 @@ def bake_room(
         panes=pane_emitters(scene.mesh, room, light),
         lamps=lamp_emitters(objects, room, light) or ceiling_emitters(interior.polygon, interior.height, light),
         sun=sun,
-        sun_light=soften(light.sun_color) * np.float32(3.2 * light.sun_strength),
+        sun_light=soften(light.sun_color) * np.float32(5.0 * light.sun_strength),
         day=0.3 + 0.4 * light.sky_strength + 0.2 * light.sun_strength,
         evening=light.lamp_strength,
+        mood=0.85 + 0.2 * (light.sky_strength + light.sun_strength),
     )
     middle = np.append(interior.polygon.mean(axis=0), min(1.6, 0.6 * interior.height))
     field = bake(scene, points, sources, eye=middle, seed=interior.seed, settings=settings)
@@ -82,10 +83,30 @@ def bake_room(
         images = list(pool.map(lambda k: _shade(charts, k, sheets[k], spans[k], baked), range(len(spans))))
     first = len(charts.atlas.inside)
     return BakedRoom(
-        charts=charts, textures=build_pyramid(images, settings.cell / PER_CELL), facet_faces=facet_faces, facets=facets, pieces=pieces,
+        charts=charts, textures=build_pyramid(images, settings.cell / PER_CELL),
+        facet_faces=facet_faces, facets=facets, pieces=pieces,
         light=probes.mix @ np.concatenate([field.irradiance[first:], field.mirror[first:]], axis=1),
         environment=field.environment, eye=middle.astype(np.float32),
     )  # fmt: skip
+
+
+def bake_settings(texel_size: float) -> BakeSettings:
+    """How fine to bake for surfaces of this texel size: the light's cells follow it, the number of rays falls slowly.
+
+    Raises:
+      ValueError: the texel size is not a positive length.
+    """
+    if not (np.isfinite(texel_size) and texel_size > 0):
+        raise ValueError(f"image.texel_size must be a positive number of metres, got {texel_size}")
+    default = BakeSettings()
+    ratio = texel_size * PER_CELL / default.cell
+    return dataclasses.replace(
+        default,
+        cell=texel_size * PER_CELL,
+        probe_spacing=default.probe_spacing * max(ratio, 1.0) ** 0.5,
+        probes=max(2000, int(default.probes / max(ratio, 1.0))),
+        rays=max(32, int(default.rays / max(ratio, 1.0) ** 0.5)),
+    )
 
 
 def _interior(plan: footprint.FloorPlan, room: int, style: Style, seed: int) -> Interior:

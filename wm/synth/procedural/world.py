@@ -25,6 +25,8 @@ from wm.types import OUTSIDE, Camera, GBuffer
 
 KEPT = 32
 """Rooms kept baked; the least recently seen go first."""
+VISIBLE = 0.02
+"""Difference of sRGB values between neighbours from which a pixel is worth more samples."""
 POLISHED = 0.1
 """Share of mirrored radiance from which a reflection is looked up at the hit and not mixed from light points."""
 
@@ -74,7 +76,7 @@ class World:
         face = gbuffer.face.ravel()
         rgb = self._shade(camera, face, gbuffer.barycentric.reshape(-1, 2), gbuffer.depth.ravel(), directions)
         if self._supersampling > 1:
-            edges = np.flatnonzero(self._edges(gbuffer).ravel())
+            edges = np.flatnonzero((self._edges(gbuffer) & _contrasting(rgb.reshape(*shape, 3))).ravel())
             rgb[edges] = self._supersampled(camera, edges)
         thing = np.append(self.mesh.face_object, np.int32(OUTSIDE))[face]
         return Shot(rgb=rgb.reshape(*shape, 3), gbuffer=gbuffer, object=thing.reshape(shape))
@@ -191,3 +193,13 @@ class World:
             edges[a] |= differ
             edges[b] |= differ
         return edges
+
+
+def _contrasting(rgb: np.ndarray) -> np.ndarray:
+    """[h, w] bool: pixels that differ visibly from a neighbour, so that more samples would show."""
+    out = np.zeros(rgb.shape[:2], bool)
+    for axis in (0, 1):
+        differ = np.abs(np.diff(rgb, axis=axis)).max(axis=2) > VISIBLE
+        out[: -1 if axis == 0 else None, : -1 if axis == 1 else None] |= differ
+        out[1 if axis == 0 else 0 :, 1 if axis == 1 else 0 :] |= differ
+    return out

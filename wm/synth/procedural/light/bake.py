@@ -1,7 +1,7 @@
 """Light in a room, once: what every light point receives from panes, sun and lamps, directly and after several bounces.
 
-Notation: e = irradiance / pi, so a matt surface of albedo a shows radiance a e. With direct light d, hits h(i, j) of cosine-weighted
-ray j from point i, and radiosity a e of what it hits,
+Notation: e = irradiance / pi, so a matt surface of albedo a shows radiance a e. With direct light d, hits h(i, j) of
+cosine-weighted ray j from point i, and radiosity a e of what it hits,
     e_i = d_i + mean_j a_h(i,j) e_h(i,j)          (+ the radiance of sources nearer than NEAR, which sampling d would make noisy)
 is iterated as a gather: rays are traced once, bounces are table look-ups. Light the room loses through doors comes back as the
 room's own mean. Tiers of work: per room, R rays a point and one shadow ray per point and source sample; per bounce, one gather.
@@ -23,7 +23,7 @@ from wm.synth.procedural.light.transport import directions_about, in_chunks, mir
 
 BURIED = 0.5
 """Share of rays that hit a surface from behind, above which a point lies inside a solid and its darkness is nobody's."""
-BRIGHT, RANGE = 1.4, 1.3
+BRIGHT, RANGE = 1.7, 1.7
 """In multiples of a room's target: e above which light is compressed, and how far beyond it ends. What an eye does that looks at
 the wall behind a lamp and at the room in one glance."""
 
@@ -38,6 +38,7 @@ class Sources:
     sun_light: np.ndarray  # [3] e on a surface that faces the sun
     day: float  # 0..1 share of the room's light that daylight may give
     evening: float  # 0..1 how strong lamps are at least
+    mood: float = 1.0  # how bright the room is to be, against the settings' target
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -61,7 +62,7 @@ class BakeSettings:
     rays: int = 80  # a point
     sun_rays: int = 6  # a point
     bounces: int = 4
-    target: float = 0.22  # mean radiance that a room is lit to
+    target: float = 0.23  # mean radiance that a room is lit to
     ambient: float = 0.05  # share of the mean e that reaches even hidden places
 
 
@@ -90,7 +91,7 @@ def bake(
     field = _bounced(points, live, direct, hits, settings.bounces)
 
     mean_albedo = max(float(_mean(points.albedo, points.live) @ LUMINANCE), 0.05)
-    target = float(np.clip(settings.target / mean_albedo, 0.34, 0.6))
+    target = float(np.clip(sources.mood * settings.target / mean_albedo, 0.36, 0.62))
     factors = np.repeat(_balance(points, field, sources, target), 3)
     total = (field * factors).reshape(-1, 3, 3).sum(axis=1) + np.float32(settings.ambient * target)
     total = _compressed(total, BRIGHT * target, RANGE * target)

@@ -40,7 +40,10 @@ def locate(points: LightPoints, face: np.ndarray, barycentric: np.ndarray) -> np
 
 
 def smooth(points: LightPoints, values: np.ndarray, *, sigma: float, rounds: int) -> np.ndarray:
-    """Values at light points averaged with their neighbours: a masked gaussian (texels) on charts, rounds of averaging among probes."""
+    """Values at light points averaged with their neighbours.
+
+    On charts a masked gaussian of `sigma` texels, among probes `rounds` of averaging.
+    """
     out = values.astype(np.float32)
     atlas = points.charts.atlas
     for chart in range(len(atlas.chart_start)):
@@ -66,13 +69,13 @@ def mixed(weights: csr_array, live: np.ndarray, values: np.ndarray) -> np.ndarra
 
 
 def filled(points: LightPoints, values: np.ndarray) -> np.ndarray:
-    """Values with every texel off its surface given those of the nearest texel on it, and every buried probe its neighbours' mean."""
+    """Values without holes: texels off their surface take the nearest one on it, buried probes the mean of their neighbours."""
     out = values.astype(np.float32)
     for chart in range(len(points.charts.atlas.chart_start)):
         part, shape = _chart_slice(points, chart)
         mask = points.live[part].reshape(shape)
         if mask.any() and not mask.all():
-            _, index = distance_transform_edt(~mask, return_indices=True)
+            index = np.asarray(distance_transform_edt(~mask, return_distances=False, return_indices=True))
             out[part] = values[part].reshape(*shape, -1)[tuple(index)].reshape(-1, values.shape[1])
     first = len(points.charts.atlas.inside)
     buried = np.flatnonzero(~points.live[first:])

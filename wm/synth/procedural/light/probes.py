@@ -1,8 +1,8 @@
 """Where light is computed on objects: a few probes among the many corners that store it.
 
-Furniture has far more corners than its light has detail. Corners that lie in one cell of a grid and face one way (of six) share a
-probe, which stands on the corner nearest to their middle; afterwards every corner mixes the four probes nearest to it in place and
-normal, so that light is smooth over a surface and still breaks at its creases.
+Furniture has far more corners than its light has detail. Corners that lie in one cell of a grid and face one way (of six) share
+a probe, which stands on the corner nearest to their middle; afterwards every corner mixes the four probes nearest to it in place
+and normal, so that light is smooth over a surface and still breaks at its creases.
 """
 
 import dataclasses

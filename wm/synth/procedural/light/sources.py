@@ -99,7 +99,7 @@ def glow_color(thing: SceneObject, slot: int, light: Light) -> np.ndarray:
 
 
 def soften(color: tuple[float, float, float], share: float = 0.55) -> np.ndarray:
-    """[3] linear colour of light with part of its tint taken out, as an eye that has adapted to it sees it; its largest channel 1."""
+    """[3] linear colour of light, its largest channel 1, with part of its tint taken out: as an adapted eye sees it."""
     linear = to_linear(np.asarray(color, np.float32))
     linear = linear / max(float(linear.max()), 1e-3)
     return (linear**share).astype(np.float32)
@@ -159,6 +159,6 @@ def _object_emitter(thing: SceneObject, light: Light, count: int) -> Emitter:
     colors = np.stack([glow_color(thing, int(slot), light) for slot in thing.face_slot[faces[pick]]])
     # Lamps shine all ways: shades and flames are small, and a sample stands for the whole body's share.
     return Emitter(
-        points=points, spread=np.zeros((count, 2, 3)), normals=np.zeros((count, 3)), areas=np.full(count, float(flux.sum()) / count / 4),
-        radiance=colors.astype(np.float32), sky=False,
+        points=points, spread=np.zeros((count, 2, 3)), normals=np.zeros((count, 3)),
+        areas=np.full(count, float(flux.sum()) / count / 4), radiance=colors.astype(np.float32), sky=False,
     )  # fmt: skip

@@ -80,8 +80,9 @@ def painted_wood(p: Points, finish: Finish, seed: int) -> Surface:
     """Paint over wood: faint brush marks along the grain, worn to the wood in places."""
     paint, below = ink(finish, 0), ink(finish, 1, shade=0.5)
     brush = fbm((p.x * F32(0.08), p.y, p.z), wavelength=0.03, octaves=2, footprint=p.footprint, seed=seed)
-    worn = fbm((p.x * F32(0.5), p.y, p.z), wavelength=0.16, octaves=4, footprint=p.footprint, seed=seed + 7)
-    share = np.clip((worn - F32(0.75 - 0.5 * finish.wear)) * F32(3), 0, 1) * F32(finish.wear)
+    bend = F32(0.1) * fbm((p.x, p.y, p.z), wavelength=0.3, octaves=2, footprint=p.footprint, seed=seed + 5)
+    worn = fbm((p.x * F32(0.4) + bend, p.y + bend, p.z), wavelength=0.25, octaves=4, footprint=p.footprint, seed=seed + 7)
+    share = np.clip((worn - F32(0.95 - 0.6 * finish.wear)) * F32(3), 0, 1) * F32(finish.wear)
     color = mix(vary(paint, 0.035 * finish.contrast * brush), below, share)
     return Surface(albedo=color, roughness=finish.roughness, height=brush * F32(1e-4))
 

@@ -160,7 +160,7 @@ def _mouldings(chart: Chart, sheet: Sheet, wall: np.ndarray, distances: tuple[fl
     for distance in distances:
         height = height + F32(0.02) * np.sqrt(np.clip(F32(1) - ((wall - F32(distance)) / F32(0.03)) ** 2, 0, 1))
     sheet = dataclasses.replace(sheet, height=height.astype(F32))
-    return shaded(sheet, 1 - 0.10 * sum(np.exp(-(((wall - F32(d + 0.04)) / 0.02) ** 2)) for d in distances))
+    return shaded(sheet, 1 - 0.10 * np.sum([np.exp(-(((wall - F32(d + 0.04)) / 0.02) ** 2)) for d in distances], axis=0))
 
 
 def _rosette(chart: Chart, sheet: Sheet, dx: np.ndarray, dy: np.ndarray, *, radius: float) -> Sheet:

@@ -19,7 +19,7 @@ F32 = np.float32
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Chart:
-    """Where a sheet lies. Fine texel (i, j) is centred at origin + (j + 1/2) texel u + (i + 1/2) texel v; walls have v upwards."""
+    """Where a sheet lies: texel (i, j) is centred at origin + (j + 1/2) texel u + (i + 1/2) texel v; walls have v upwards."""
 
     kind: SurfaceKind
     origin: np.ndarray  # [3] float64 metres

@@ -1,12 +1,14 @@
 """Walls: the finish above, wainscot below, skirting, cornice, and casings around the openings."""
 
+import dataclasses
+
 import numpy as np
 
 from wm.synth.procedural.finish import Finish
 from wm.synth.procedural.materials import flat_points
 from wm.synth.procedural.materials.wall import trim_profile
 from wm.synth.procedural.materials.wood import framed_panel
-from wm.synth.procedural.noise import edge
+from wm.synth.procedural.noise import cells, edge
 from wm.synth.procedural.surfaces.sheet import F32, Chart, Gap, Interior, Sheet, as_sheet, grid, lay, over, shaded, with_cavities
 
 STILE = 0.085  # metres: frame between two panels of a wainscot
@@ -19,6 +21,8 @@ def wall_sheet(chart: Chart, gaps: tuple[Gap, ...], interior: Interior) -> Sheet
     seed = interior.seed
     surfaces, ornament = interior.surfaces, interior.style.form.ornament
     sheet = lay(chart, surfaces.wall, s, z, seed=seed)
+    if surfaces.wall.material == "painted_wood":
+        sheet = _shiplap(sheet, z)
     trim = lay(chart, trim_profile(surfaces.trim), s, z, seed=seed + 50)
     skirting = 0.10 + 0.09 * ornament
     if surfaces.wainscot is not None and surfaces.wainscot_height > 0:
@@ -36,6 +40,13 @@ def gap_distance(s: np.ndarray, z: np.ndarray, gap: Gap) -> np.ndarray:
     above = z - F32(gap.head)
     below = F32(gap.sill) - z if gap.sill > 0.05 else np.full_like(z, -np.inf)
     return np.maximum(across, np.maximum(above, below))
+
+
+def _shiplap(sheet: Sheet, z: np.ndarray) -> Sheet:
+    """Painted boards laid level, a groove every 18 cm."""
+    _, offset = cells(z, 0.18)
+    groove = np.clip(F32(1) - (F32(0.09) - np.abs(offset)) / F32(0.012), 0, 1)
+    return shaded(dataclasses.replace(sheet, height=(sheet.height - F32(0.006) * groove).astype(F32)), 1 - 0.2 * groove)
 
 
 def _wainscot(

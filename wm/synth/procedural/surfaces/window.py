@@ -58,7 +58,7 @@ def _outdoors(chart: Chart, across: np.ndarray, z: np.ndarray, interior: Interio
     light = interior.style.light
     sky = to_linear(np.asarray(light.sky_color, F32))[:, None, None]
     sun = to_linear(np.asarray(light.sun_color, F32))[:, None, None]
-    brightness = F32(0.35 + 1.15 * light.sky_strength + 0.35 * light.sun_strength)
+    brightness = F32(0.5 + 1.1 * light.sky_strength + 0.35 * light.sun_strength)
     up = np.clip((z - F32(HORIZON)) / F32(1.6), -1, 1)
     glow = np.exp(-np.abs(up) * F32(2.2))
     cloud = fbm((across, z * F32(2.2)), wavelength=1.1, octaves=3, footprint=chart.texel, seed=interior.seed + 80)
