@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Float, UInt8
+from jaxtyping import Bool, Float, Num, UInt8
 from PIL import Image
 
 from wm.types import Camera, SceneObject, View
@@ -19,6 +19,11 @@ DEPTH_UNIT = 1e-3
 
 # nerfstudio's cameras look along -z with y up; ours along +z with y down.
 _OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
+
+
+def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
+    """An image in [0, 1] as 8 bits, clipped and rounded; 8-bit images as they are."""
+    return rgb if rgb.dtype == np.uint8 else np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
 
 
 def encode_png(rgb: UInt8[np.ndarray, "h w 3"]) -> bytes:

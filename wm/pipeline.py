@@ -1,4 +1,4 @@
-"""The stages in order: plan, structure, furnish, cameras, paint, reconstruct, evaluate, report.
+"""The stages in order: plan, structure, furnish, cameras, paint, heldout, reconstruct, evaluate, report.
 
 A stage's key is a digest of its configuration, the seed and the keys of its inputs, so a resumed run does again only what is
 missing, and ends with the same bytes as an undisturbed one. Each stage is a function of `wm.stages`.
@@ -17,6 +17,7 @@ from wm.artifacts import open_run_folder
 from wm.meter import StageMeter
 from wm.schema import RunConfig
 from wm.stages.evaluation import METRICS, evaluate
+from wm.stages.heldout import render_heldout
 from wm.stages.job import TIMINGS, Job
 from wm.stages.painting import paint
 from wm.stages.reconstruction import reconstruct
@@ -54,8 +55,9 @@ def run(config: RunConfig, folder: pathlib.Path) -> dict:
         image = make_backend("image", config.image, scene.context)
         depth = make_backend("depth", config.depth, scene.context)
         painted = paint(job, scene, image, depth)
-        result = reconstruct(job, scene, painted, image)
-        metrics = evaluate(job, scene, painted, result, image)
+        heldout = render_heldout(job, scene, image)
+        result = reconstruct(job, scene, painted, heldout)
+        metrics = evaluate(job, scene, painted, result, heldout)
         metrics = report(job, scene, painted, result, metrics)
         print(_summary(folder, job, metrics))
         return metrics

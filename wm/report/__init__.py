@@ -3,5 +3,4 @@
 from wm.report.page import ReportData as ReportData
 from wm.report.page import SheetRow as SheetRow
 from wm.report.page import render_page as render_page
-from wm.report.pictures import to_bytes as to_bytes
 from wm.report.video import write_video as write_video

@@ -45,8 +45,8 @@ class ReportData:
     plan: FloorPlan
     objects: Sequence[SceneObject]
     views: Sequence[View]
-    sheets: dict[str, list[SheetRow]]  # room name -> rows
-    heroes: dict[str, np.ndarray]  # room name -> a held-out render [h, w, 3]
+    sheets: dict[str, list[SheetRow]]  # room id -> rows
+    heroes: dict[str, np.ndarray]  # room id -> a held-out render [h, w, 3]
     metrics: dict[str, float | int | None]
     timings: dict[str, dict[str, float]]
     history: Sequence[dict]
@@ -105,9 +105,13 @@ def _video(video: bytes | None) -> str:
     return f'<video controls muted loop autoplay playsinline src="{uri}"></video>'
 
 
+def _title(room: str) -> str:
+    return html.escape(room.replace("_", " ").capitalize())
+
+
 def _hero(name: str, image: np.ndarray) -> str:
     picture = f'<img loading="lazy" src="{data_uri(image, max_width=HERO)}">'
-    return f"<figure>{picture}<figcaption>{html.escape(name)}</figcaption></figure>"
+    return f"<figure>{picture}<figcaption>{_title(name)}</figcaption></figure>"
 
 
 def _metric_row(data: ReportData, key: str, label: str, form: str, meaning: str, better: str) -> str:
@@ -136,4 +140,4 @@ def _sheet(name: str, rows: list[SheetRow]) -> str:
         for row in rows
     )
     head = "<tr><th>condition</th><th>generated</th><th>splat render</th><th>depth error</th></tr>"
-    return f"<h3>{html.escape(name)}</h3><table class='sheet'>{head}{body}</table>"
+    return f"<h3>{_title(name)}</h3><table class='sheet'>{head}{body}</table>"

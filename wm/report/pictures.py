@@ -8,13 +8,10 @@ import numpy as np
 from jaxtyping import Float, Num, UInt8
 from PIL import Image
 
+from wm.codecs import to_bytes
+
 DEPTH_ERROR_RANGE = 0.10
 """Metres at which the colour of a depth error saturates."""
-
-
-def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1] as 8 bits, rounded."""
-    return rgb if rgb.dtype == np.uint8 else (np.clip(rgb, 0, 1) * 255 + 0.5).astype(np.uint8)
 
 
 def depth_error_image(ours: Float[np.ndarray, "h w"], scaffold: Float[np.ndarray, "h w"]) -> UInt8[np.ndarray, "h w 3"]:

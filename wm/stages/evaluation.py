@@ -3,8 +3,9 @@
 import dataclasses
 import itertools
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -15,12 +16,13 @@ from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
 from wm.splat.reprojection import overlap, reprojection_error, shared_pixels
 from wm.splat.scene_render import SceneRenderer
 from wm.splat.ssim import ssim
+from wm.stages.heldout import HeldOut
 from wm.stages.job import Job
+from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.reconstruction import Reconstruction
 from wm.stages.scene import Scene
-from wm.synth.backends import ImageBackend
-from wm.types import GBuffer, Render, SurfaceKind, View
+from wm.types import Gaussians, GBuffer, Render, SurfaceKind, View
 
 EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
 
@@ -34,14 +36,13 @@ class Seen:
     gbuffer: GBuffer
 
 
-def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, image: ImageBackend) -> dict:
+def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, heldout: HeldOut) -> dict:
     """The run's metrics but for its time and memory."""
     with job.stage("evaluate"):
         config = job.config
         key = job.key("evaluate", result.key, config.evaluate, config.navigation)
         if not job.folder.has("evaluate", key):
-            job.folder.drop_others("heldout/", set())
-            metrics = _scene_metrics(job, scene, painted, result) | _heldout_metrics(job, scene, result, image, key)
+            metrics = _scene_metrics(job, scene, painted, result) | _heldout_metrics(job, scene, result, heldout, key)
             clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
             job.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
         return json.loads((job.folder.path / EVALUATION).read_text())
@@ -56,6 +57,12 @@ def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
         render=renderer.render(view.camera, [int(room) for room in sees], gbuffer.depth),
         gbuffer=gbuffer,
     )
+
+
+def look_all(job: Job, scene: Scene, rooms: Sequence[Gaussians], views: Sequence[View]) -> Iterator[Seen]:
+    """Every view in order, one renderer a device."""
+    renderers = [SceneRenderer(rooms, job.config.raster, device=device) for device in jax.devices()]
+    return in_order(lambda renderer, view: look(scene, renderer, view), views, renderers)
 
 
 def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict:
@@ -74,22 +81,17 @@ def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruct
     }
 
 
-def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, image: ImageBackend, key: str) -> dict:
-    renderer = SceneRenderer(result.rooms, job.config.raster)
-    truth = getattr(image, "truth", None)
+def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: HeldOut, key: str) -> dict:
     rows: list[dict[str, float]] = []
     with job.bar("evaluate", len(scene.heldout)) as bar:
         for _, members in itertools.groupby(scene.heldout, key=lambda view: view.room):
             seen = []
-            for view in members:
-                one = look(scene, renderer, view)
+            for one in look_all(job, scene, result.rooms, list(members)):
                 row = _alignment(scene, one)
-                files = {f"heldout/{view.name}.png": codecs.encode_png(_bytes(one.render.rgb))}
-                if truth is not None:
-                    world = truth(view)
-                    row |= _photometry(one.render.rgb, world)
-                    files[f"heldout/{view.name}.truth.png"] = codecs.encode_png(_bytes(world))
-                job.folder.save(f"heldout/{view.name}", key, files)
+                if heldout.known:
+                    row |= _photometry(one.render.rgb, heldout.truth(one.view))
+                picture = codecs.encode_png(codecs.to_bytes(one.render.rgb))
+                job.folder.save(f"evaluate/{one.view.name}", key, {f"heldout/{one.view.name}.png": picture})
                 rows.append(row)
                 seen.append(one)
                 bar.update()
@@ -98,9 +100,9 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, image: Imag
     return {name: _mean([row[name] for row in rows if name in row]) for name in names}
 
 
-def _photometry(rgb: np.ndarray, world: np.ndarray) -> dict[str, float]:
-    clipped = np.clip(rgb, 0, 1)
-    return {"psnr": psnr(clipped, world), "ssim": float(ssim(jnp.asarray(clipped), jnp.asarray(world, jnp.float32)))}
+def _photometry(rgb: np.ndarray, truth: np.ndarray) -> dict[str, float]:
+    clipped, world = np.clip(rgb, 0, 1), truth.astype(np.float32) / np.float32(255)
+    return {"psnr": psnr(clipped, world), "ssim": float(ssim(jnp.asarray(clipped), jnp.asarray(world)))}
 
 
 def _alignment(scene: Scene, seen: Seen) -> dict[str, float]:
@@ -134,7 +136,3 @@ def _reprojection(seen: Sequence[Seen], min_overlap: float) -> list[dict[str, fl
 def _mean(values: Sequence[float]) -> float | None:
     finite = [value for value in values if np.isfinite(value)]
     return float(np.mean(finite)) if finite else None
-
-
-def _bytes(rgb: np.ndarray) -> np.ndarray:
-    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)

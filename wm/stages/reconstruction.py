@@ -14,10 +14,10 @@ from wm.splat.cloud import initial_gaussians
 from wm.splat.ply import save_ply
 from wm.splat.scene_fit import fit_scene
 from wm.splat.training import TrainingView
+from wm.stages.heldout import HeldOut
 from wm.stages.job import Job
 from wm.stages.painting import Painted
 from wm.stages.scene import Scene
-from wm.synth.backends import ImageBackend
 from wm.types import Gaussians, GBuffer, View
 
 SPLATS, BY_ROOM, HISTORY = "splats.ply", "stages/splats.npz", "stages/history.json"
@@ -36,13 +36,13 @@ class Reconstruction:
     key: str
 
 
-def reconstruct(job: Job, scene: Scene, painted: Painted, image: ImageBackend) -> Reconstruction:
+def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut) -> Reconstruction:
     """The gaussians of the scene, in `splats.ply`."""
     with job.stage("reconstruct"):
         config = job.config
         key = job.key("reconstruct", painted.key, config.fit, config.raster)
         if not job.folder.has("reconstruct", key):
-            _fit(job, scene, painted, image, key)
+            _fit(job, scene, painted, heldout, key)
         history = job.folder.path / HISTORY
         return Reconstruction(
             rooms=_split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes())),
@@ -67,7 +67,7 @@ def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, g
     )
 
 
-def _fit(job: Job, scene: Scene, painted: Painted, image: ImageBackend, key: str) -> None:
+def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) -> None:
     config, folder = job.config, job.folder
     rooms = range(len(scene.plan.rooms))
 
@@ -77,12 +77,11 @@ def _fit(job: Job, scene: Scene, painted: Painted, image: ImageBackend, key: str
         return [training_view(scene, view, p.rgb, p.mask, cast(scene.rays, view.camera)) for view, p in stored]
 
     def heldout(room: int) -> list[TrainingView]:
-        truth = getattr(image, "truth", None)
-        members = [view for view in scene.heldout if view.room == room][:CURVE_VIEWS]
-        if truth is None or config.fit.curve_points == 0:
+        if not truths.known or config.fit.curve_points == 0:
             return []
+        members = [view for view in scene.heldout if view.room == room][:CURVE_VIEWS]
         everywhere = np.ones((config.cameras.height, config.cameras.width), bool)
-        return [training_view(scene, v, _bytes(truth(v)), everywhere, cast(scene.rays, v.camera)) for v in members]
+        return [training_view(scene, v, truths.truth(v), everywhere, cast(scene.rays, v.camera)) for v in members]
 
     def name(round_: int, room: int) -> str:
         return f"fit/{round_}-{scene.rooms[room]}"
@@ -153,7 +152,3 @@ def _split(arrays: Mapping[str, np.ndarray]) -> tuple[Gaussians, ...]:
 def _row(point: dict) -> dict:
     """A point of the curve with NaN (no held-out views, no depth) as None, which JSON can say."""
     return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in point.items()}
-
-
-def _bytes(rgb: np.ndarray) -> np.ndarray:
-    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)

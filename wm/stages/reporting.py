@@ -6,10 +6,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from wm.artifacts import json_text
+from wm.codecs import to_bytes
 from wm.geometry import walkthrough
-from wm.report import ReportData, SheetRow, render_page, to_bytes, write_video
-from wm.splat.scene_render import SceneRenderer
-from wm.stages.evaluation import METRICS, look
+from wm.report import ReportData, SheetRow, render_page, write_video
+from wm.stages.evaluation import METRICS, Seen, look_all
 from wm.stages.job import Job
 from wm.stages.painting import Painted
 from wm.stages.reconstruction import Reconstruction
@@ -36,7 +36,6 @@ def report(job: Job, scene: Scene, painted: Painted, result: Reconstruction, met
 
 
 def _page(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> ReportData:
-    renderer = SceneRenderer(result.rooms, job.config.raster)
     return ReportData(
         scene=job.config.scene.name,
         theme=job.config.scene.theme,
@@ -46,48 +45,51 @@ def _page(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> R
         plan=scene.plan,
         objects=scene.objects,
         views=scene.views,
-        sheets=_sheets(scene, renderer, painted),
-        heroes=_heroes(scene, renderer),
+        sheets=_sheets(job, scene, painted, result),
+        heroes=_heroes(job, scene, result),
         metrics={},
         timings={},
         history=_scene_curve(result.history),
-        video=_video(job, scene, renderer, result.key) if job.config.report.video else None,
+        video=_video(job, scene, result) if job.config.report.video else None,
     )
 
 
-def _video(job: Job, scene: Scene, renderer: SceneRenderer, key: str) -> bytes:
+def _video(job: Job, scene: Scene, result: Reconstruction) -> bytes:
     config = job.config
-    key = job.key("video", key, config.report)
+    key = job.key("video", result.key, config.report)
     if not job.folder.has("video", key):
         cameras = walkthrough(scene.plan, scene.mesh, config.cameras, fps=config.report.fps, speed=config.report.walking_speed)
         views = [View(camera=camera, room=-1, kind="walk", name=f"walk{k}") for k, camera in enumerate(cameras)]
 
         def frames() -> Iterator[np.ndarray]:
             with job.bar("video", len(views)) as bar:
-                for view in views:
-                    yield to_bytes(look(scene, renderer, view).render.rgb)
+                for seen in look_all(job, scene, result.rooms, views):
+                    yield to_bytes(seen.render.rgb)
                     bar.update()
 
         job.folder.save("video", key, {VIDEO: lambda path: write_video(path, frames(), fps=config.report.fps)})
     return (job.folder.path / VIDEO).read_bytes()
 
 
-def _sheets(scene: Scene, renderer: SceneRenderer, painted: Painted) -> dict[str, list[SheetRow]]:
-    sheets: dict[str, list[SheetRow]] = {}
-    for index, room in enumerate(scene.plan.rooms):
+def _sheets(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict[str, list[SheetRow]]:
+    shown = []
+    for index in range(len(scene.plan.rooms)):
         members = [view for view in scene.views if view.room == index]
-        shown = [next((v for v in members if v.kind == kind), None) for kind in SHEET_KINDS]
-        sheets[room.name] = [_sheet_row(scene, renderer, painted, view) for view in shown if view is not None]
+        firsts = (next((view for view in members if view.kind == kind), None) for kind in SHEET_KINDS)
+        shown += [view for view in firsts if view is not None]
+    sheets: dict[str, list[SheetRow]] = {room: [] for room in scene.rooms}
+    for seen in look_all(job, scene, result.rooms, shown):
+        sheets[scene.rooms[seen.view.room]].append(_sheet_row(painted, seen))
     return sheets
 
 
-def _sheet_row(scene: Scene, renderer: SceneRenderer, painted: Painted, view: View) -> SheetRow:
-    stored, seen = painted.view(view), look(scene, renderer, view)
+def _sheet_row(painted: Painted, seen: Seen) -> SheetRow:
+    stored = painted.view(seen.view)
     recall = "edge recall not measured" if stored.recall is None else f"edge recall {stored.recall:.2f}"
     tries = "1 attempt" if stored.attempts == 1 else f"{stored.attempts} attempts"
     style = f"style from {stored.reference}" if stored.reference else "no style reference"
     return SheetRow(
-        name=view.name,
+        name=seen.view.name,
         note=f"{recall}, {tries}{'' if stored.accepted else ', used only where it agrees'}, {style}",
         condition=stored.condition,
         generated=stored.rgb,
@@ -97,16 +99,18 @@ def _sheet_row(scene: Scene, renderer: SceneRenderer, painted: Painted, view: Vi
     )
 
 
-def _heroes(scene: Scene, renderer: SceneRenderer) -> dict[str, np.ndarray]:
+def _heroes(job: Job, scene: Scene, result: Reconstruction) -> dict[str, np.ndarray]:
     """One held-out view a room: the one that sees farthest, so that most of the room is in it."""
-    heroes = {}
-    for index, room in enumerate(scene.plan.rooms):
-        members = [view for view in scene.heldout if view.room == index]
-        seen = [look(scene, renderer, view) for view in members]
-        if seen:
-            best = max(seen, key=lambda one: float(np.median(one.gbuffer.depth)))
-            heroes[room.name] = to_bytes(best.render.rgb)
-    return heroes
+    best: dict[str, Seen] = {}
+    for seen in look_all(job, scene, result.rooms, scene.heldout):
+        room = scene.rooms[seen.view.room]
+        if room not in best or _reach(seen) > _reach(best[room]):
+            best[room] = seen
+    return {room: to_bytes(seen.render.rgb) for room, seen in best.items()}
+
+
+def _reach(seen: Seen) -> float:
+    return float(np.median(seen.gbuffer.depth))
 
 
 def _scene_curve(history: tuple[dict, ...]) -> list[dict]:

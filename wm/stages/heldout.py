@@ -1,0 +1,51 @@
+"""The truth of the held-out views: what the world would show there, where the image backend knows."""
+
+import dataclasses
+import os
+
+import numpy as np
+
+from wm import codecs
+from wm.stages.job import Job
+from wm.stages.ordered import in_order
+from wm.stages.scene import Scene
+from wm.synth.backends import ImageBackend
+from wm.types import View
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class HeldOut:
+    """The way to each truth in the run folder."""
+
+    known: bool  # whether the image backend knows its world
+    key: str
+    job: Job
+
+    def truth(self, view: View) -> np.ndarray:
+        """[h, w, 3] uint8."""
+        return codecs.decode_png((self.job.folder.path / _file(view)).read_bytes())
+
+
+def render_heldout(job: Job, scene: Scene, image: ImageBackend) -> HeldOut:
+    """The truths of all held-out views, stored; a real image model has none."""
+    config = job.config
+    key = job.key("heldout", scene.key, config.scene.theme, config.cameras, config.image)
+    truth = getattr(image, "truth", None)
+    if truth is None:
+        return HeldOut(known=False, key=key, job=job)
+    with job.stage("heldout"):
+        wanted = [view for view in scene.heldout if not job.folder.has(_name(view), key)]
+        job.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
+        with job.bar("heldout", len(wanted)) as bar:
+            for view, rgb in zip(wanted, in_order(lambda _, view: truth(view), wanted, range(os.cpu_count() or 1))):
+                job.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(rgb))})
+                bar.update()
+    return HeldOut(known=True, key=key, job=job)
+
+
+def _name(view: View) -> str:
+    return f"heldout/{view.name}"
+
+
+def _file(view: View) -> str:
+    return f"heldout/{view.name}.truth.png"
