@@ -7,6 +7,7 @@ what the paper's would (condition, reference, prompt, seed); the offline ones ma
 
 import dataclasses
 import importlib
+from collections.abc import Sequence
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -53,6 +54,15 @@ class ImageResult:
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:
         """One image Phi(X, reference, theme; seed)."""
+        ...
+
+
+@runtime_checkable
+class PrefetchingBackend(ImageBackend, Protocol):
+    """An image backend that can begin on views before their conditions are known."""
+
+    def prefetch(self, views: Sequence[View]) -> None:
+        """The views that come next, soonest first."""
         ...
 
 

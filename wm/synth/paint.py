@@ -21,11 +21,12 @@ from wm.geometry.raycast import RayScene, cast
 from wm.geometry.texture import accumulate_in_place
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
 from wm.synth.attempt import PaintedView, as_float, paint_view
-from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest
+from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest, PrefetchingBackend
 from wm.synth.condition import make_condition
 from wm.synth.order import paint_order
 from wm.types import Atlas, GBuffer, SceneObject, View
 
+_AHEAD = 3  # views, the current one among them, that a backend is told of
 _RANGE_SCALE = 1 / 8  # resolution at which the scene's depth range is looked up
 
 
@@ -92,7 +93,8 @@ def paint_scene(
     done: list[int] = []
     for room in sorted({view.room for view in views}):
         images: dict[int, np.ndarray] = {}  # of this room; those of earlier rooms are loaded when needed
-        for index, reference in _room_order(views, room, done):
+        order = _room_order(views, room, done)
+        for place, (index, reference) in enumerate(order):
             view = views[index]
             gbuffer = cast(scaffold.scene, view.camera)
             painted = load(view)
@@ -106,6 +108,8 @@ def paint_scene(
                     seed=seed,
                 )
                 style = None if reference is None else views[reference].name
+                if isinstance(image, PrefetchingBackend):
+                    image.prefetch([views[i] for i, _ in order[place : place + _AHEAD]])
                 painted = paint_view(request, shown, image, depth, settings.verify, (seed, index), style)
                 store(view, painted)
             rgb = as_float(painted.rgb)

@@ -9,6 +9,8 @@ get the world's materials and light; objects that X leaves out are drawn all the
 """
 
 import dataclasses
+from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -20,6 +22,10 @@ from wm.synth.procedural.room import bake_settings
 from wm.synth.procedural.world import Shot, World
 from wm.types import OUTSIDE, View
 
+SURE = 0.85
+"""How far known a pixel must be before its tone counts: below, the condition is part grey depth."""
+SHOTS_AT_ONCE, KEPT_SHOTS = 2, 4
+"""Views whose share of the work that no condition changes is done side by side, and how many of them are kept."""
 TONE_SCALE = 5 / 688
 """Standard deviation of the low pass, as a share of the image's width: about a texel of 2 cm at two metres."""
 AGREEMENT = 0.03
@@ -34,6 +40,13 @@ class ProceduralImages:
 
     world: World
     config: ImageConfig
+    _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
+    _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
+
+    def prefetch(self, views: Sequence[View]) -> None:
+        """Starts on the views that come next: what they show of the world, whatever their conditions will be."""
+        for view in views[:KEPT_SHOTS]:
+            self._shot(view)
 
     def generate(self, request: ImageRequest) -> ImageResult:
         """The world seen from the request's camera, in the tone that the condition already has; same request, same bytes.
@@ -41,7 +54,7 @@ class ProceduralImages:
         Raises:
           ValueError: the condition's images are not of the camera's size.
         """
-        shot, condition = self.world.shoot(request.view.camera), request.condition
+        shot, condition = self._shot(request.view).result(), request.condition
         _check_size(condition, shot)
         rng = np.random.default_rng(np.random.SeedSequence([request.seed, 0x1A6E]))
         invented = _drifted(shot.rgb, self.config.drift, rng)
@@ -49,9 +62,21 @@ class ProceduralImages:
         objects = shot.object != OUTSIDE
         rgb = np.where((objects & ~shown)[..., None], _object_drift(shot, self.config.drift * INVENTION, rng), invented)
         rgb = np.where((objects & shown)[..., None], shot.rgb, rgb)
-        known = np.where(objects | ~shown, 0, condition.known).astype(np.float32)
+        sure = np.clip((condition.known - SURE) / (1 - SURE), 0, 1)
+        known = np.where(objects | ~shown, 0, sure).astype(np.float32)
         rgb = _keep_tone(rgb, shot.rgb, condition.rgb, known)
         return ImageResult(rgb=np.clip(rgb, 0, 1).astype(np.float32), drawn_depth=shot.gbuffer.depth.copy())
+
+    def _shot(self, view: View) -> Future[Shot]:
+        """What the world shows the view, under way or done; the latest few are kept, so that a further attempt costs no other."""
+        camera = view.camera
+        arrays = (np.asarray(x, np.float64).tobytes() for x in (camera.T_cam_world, camera.focal, camera.principal))
+        key = (*arrays, camera.width, camera.height)
+        if key not in self._shots:
+            self._shots[key] = self._pool.submit(self.world.shoot, camera)
+            while len(self._shots) > KEPT_SHOTS:
+                del self._shots[next(iter(self._shots))]
+        return self._shots[key]
 
     def truth(self, view: View) -> Float[np.ndarray, "h w 3"]:
         """The exact world from a view's camera."""
