@@ -1,6 +1,9 @@
 """Laws of the fit of a scene: rooms do not depend on which ran where or when, and a broken run ends in the same bytes."""
 
 import dataclasses
+import os
+import subprocess
+import sys
 
 import jax
 import numpy as np
@@ -94,3 +97,19 @@ def test_a_room_that_stops_keeps_its_last_good_state_and_the_others_go_on():
     result = run(views=[VIEWS[0], bad, VIEWS[2]])
     assert len(result.stopped) == 1 and "room 1, step 0" in result.stopped[0]
     assert raw(result.gaussians[1]) == raw(jax.tree.map(np.asarray, START[1])) and (result.gaussians[0].sh != START[0].sh).any()
+
+
+@pytest.mark.slow
+def test_two_devices_give_the_bytes_of_one():
+    code = (
+        "import hashlib, jax; from tests.splat import test_scene_fit as t; from wm.splat.scene_fit import fit_scene;"
+        "fit = fit_scene(t.START, t.VIEWS.__getitem__, settings=t.SETTINGS, raster=t.RASTER, key=jax.random.key(0));"
+        "print(len(jax.devices()), hashlib.sha256(b''.join(b for g in fit.gaussians for b in t.raw(g))).hexdigest())"
+    )
+    outputs = {}
+    for devices in ("1", "2"):
+        env = os.environ | {"JAX_NUM_CPU_DEVICES": devices, "JAX_PLATFORMS": "cpu"}
+        run_ = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env, check=True)
+        outputs[devices] = run_.stdout.split()
+    assert outputs["1"][0] == "1" and outputs["2"][0] == "2"
+    assert outputs["1"][1] == outputs["2"][1]
