@@ -8,6 +8,9 @@ from wm.synth.procedural.finish import Finish
 from wm.synth.procedural.materials.surface import F32, Points, Surface, border, ink, joints, mix, piece_tone, stains, vary
 from wm.synth.procedural.noise import cells, fbm, random_cells, visible
 
+NARROW = 0.3
+"""Metres: panels narrower than this are boards, for a frame would leave nothing of them."""
+
 
 def wood(p: Points, finish: Finish, seed: int) -> Surface:
     """Solid wood: growth rings about an axis near the surface, stretched eightfold along the grain."""
@@ -62,13 +65,29 @@ def parquet(p: Points, finish: Finish, seed: int) -> Surface:
 
 
 def panelling(p: Points, finish: Finish, seed: int) -> Surface:
-    """Stiles and rails with recessed fielded panels, a third taller than wide; the mouldings are relief, lit by the room."""
+    """Stiles and rails with recessed fielded panels, a third taller than wide; the mouldings are relief, lit by the room.
+
+    Too narrow for a frame, the panels are upright tongue-and-groove boards.
+    """
     width = finish.scale
+    if width < NARROW:
+        return _matchboard(p, finish, seed)
     height = 1.35 * width
     column, du = cells(p.u, width)
     row, dv = cells(p.v, height)
     inset = np.minimum(width / 2 - np.abs(du), height / 2 - np.abs(dv)) - F32(0.075)  # metres inside the frame's inner edge
     return _panel(p, finish, seed, inset, column, row)
+
+
+def _matchboard(p: Points, finish: Finish, seed: int) -> Surface:
+    """Upright boards of the finish's width, a V groove between them."""
+    column, du = cells(p.u, finish.scale)
+    upright = dataclasses.replace(p, x=p.v, y=p.u + random_cells(column, column, seed=seed) * F32(2))
+    figure = _grain(upright, 0.02, seed + 3)
+    tone = piece_tone(column, np.zeros_like(column), seed=seed + 2, amount=0.035) + F32(0.03 * finish.contrast) * figure
+    groove = joints(du, finish.scale, 0.014, p.footprint)
+    color = mix(vary(ink(finish, 0), tone), ink(finish, 1, shade=0.6), F32(0.7) * groove)
+    return Surface(albedo=color, roughness=finish.roughness, height=F32(-0.006) * groove)
 
 
 def framed_panel(p: Points, finish: Finish, seed: int, inset: np.ndarray, column: np.ndarray) -> Surface:

@@ -7,7 +7,7 @@ import numpy as np
 from wm.synth.procedural.finish import Finish
 from wm.synth.procedural.materials import flat_points
 from wm.synth.procedural.materials.wall import trim_profile
-from wm.synth.procedural.materials.wood import framed_panel
+from wm.synth.procedural.materials.wood import NARROW, framed_panel
 from wm.synth.procedural.noise import cells, edge
 from wm.synth.procedural.surfaces.sheet import F32, Chart, Gap, Interior, Sheet, as_sheet, grid, lay, over, shaded, with_cavities
 
@@ -55,9 +55,9 @@ def _wainscot(
 ) -> Sheet:  # fmt: skip
     """The lower wall: panels that divide each stretch between doors evenly, closed by a rail."""
     top = min(interior.surfaces.wainscot_height, 0.6 * interior.height)
-    if finish.material == "panelling":
+    if finish.material == "panelling" and finish.scale >= NARROW:
         length = chart.shape[1] * chart.texel
-        column, across, width = _stretches(s, gaps, length, top, max(finish.scale, 0.3))
+        column, across, width = _stretches(s, gaps, length, top, finish.scale)
         low, high = skirting + STILE, top - STILE - 0.03
         inset = np.minimum(width / 2 - STILE / 2 - np.abs(across), (high - low) / 2 - np.abs(z - (low + high) / 2))
         points = flat_points(s.ravel(), z.ravel(), footprint=chart.texel)
