@@ -21,7 +21,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
-from wm.numerics import normalize_quat, safe_div, safe_norm
+from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
 from wm.splat.harmonics import harmonics
 from wm.types import Camera, Gaussians, record
@@ -69,7 +69,7 @@ def _project(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> 
 
 
 def _project_fwd(gaussians: Gaussians, camera: Camera, settings: RasterSettings):
-    raw, covariance = _ellipses(gaussians, camera, settings)
+    raw, covariance = _ellipses(_rows(gaussians), camera, settings)
     visible = _is_visible(raw, covariance, settings)
     # alpha falls to alpha_min on the ellipse d^T Sigma^-1 d = 2 ln(o / alpha_min), whose bounding box is radius * sqrt(diagonal)
     ratio = jnp.where(visible, raw.opacity, settings.alpha_min) / settings.alpha_min
@@ -82,29 +82,62 @@ def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
     # Culled gaussians are replaced by one that is safe to differentiate before the pass is run again: a NaN of theirs would
     # reach the camera's gradient, which sums over all.
     gaussians, camera, visible = residuals
-    _, pull = jax.vjp(lambda g, c: _ellipses(g, c, settings, visible)[0], gaussians, camera)
-    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), cotangent)
-    return pull(dataclasses.replace(masked, extent=jnp.zeros_like(masked.extent)))
+    rows = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), _rows(gaussians))
+    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), dataclasses.replace(cotangent, extent=jnp.zeros((2, 1))))
+
+    def pull(rows, camera, masked):
+        return jax.vjp(lambda r, c: _ellipses(r, c, settings, visible)[0], rows, camera)[1](masked)
+
+    means, quats, log_scales, opacity_logits, sh = _apart(lambda *x: pull(*x)[0], rows, camera, masked)
+    by_gaussians = Gaussians(
+        means=jnp.stack(means, 1),
+        quats=jnp.stack(quats, 1),
+        log_scales=jnp.stack(log_scales, 1),
+        opacity_logits=opacity_logits,
+        sh=jnp.stack([band.T for band in sh], 1),
+    )
+    return by_gaussians, pull(rows, camera, masked)[1]
 
 
 _project.defvjp(_project_fwd, _project_bwd)
 
 
+def _rows(gaussians: Gaussians):
+    """Means [3], quats [4], log_scales [3] as rows (n), opacity_logits, and sh [k] as (3, n).
+
+    The transpose is a product with the identity: XLA on a CPU would fuse a plain one with all arithmetic that follows.
+    """
+
+    def split(x):
+        columns = jnp.matmul(jnp.eye(x.shape[1]), x.T, precision="highest")
+        return [columns[i] for i in range(x.shape[1])]
+
+    sh = [gaussians.sh[:, k].T for k in range(gaussians.sh.shape[1])]
+    return split(gaussians.means), split(gaussians.quats), split(gaussians.log_scales), gaussians.opacity_logits, sh
+
+
+def _apart(f, *args):
+    """f(*args), compiled apart from what surrounds it: the other branch is never taken and XLA does not know.
+
+    Each result is then a loop of its own over its row; stacked in the same loop, none of them would be vectorised.
+    """
+    nothing = jax.tree.map(lambda x: jnp.zeros(x.shape, x.dtype), jax.eval_shape(f, *args))
+    never = jnp.max(jax.tree.leaves(args)[0], initial=-jnp.inf) == jnp.inf
+    return jax.lax.cond(never, lambda *_: nothing, f, *args)
+
+
 def _ellipses(
-    gaussians: Gaussians, camera: Camera, settings: RasterSettings, visible: Bool[Array, " n"] | None = None
+    rows, camera: Camera, settings: RasterSettings, visible: Bool[Array, " n"] | None = None
 ) -> tuple[Projected, Float[Array, "2 n"]]:
     """The equations above, nothing culled, and the diagonal of Sigma; where `visible` is False a harmless gaussian stands in."""
-
-    def keep(x, stand_in):
-        return x if visible is None else jnp.where(visible, x, stand_in)
-
-    x, y, z = (keep(row, 0.0) for row in gaussians.means.T)
+    means, quats, log_scales, opacity_logits, sh = rows
     T = camera.T_cam_world
-    p_cam = [T[i, 0] * x + T[i, 1] * y + T[i, 2] * z + T[i, 3] for i in range(3)]
-    pz = keep(p_cam[2], 1.0)
-    a, b = keep(p_cam[0], 0.0) / pz, keep(p_cam[1], 0.0) / pz
+    px, py, pz = (sum(T[i, k] * means[k] for k in range(3)) + T[i, 3] for i in range(3))
+    if visible is not None:
+        px, py, pz = jnp.where(visible, px, 0.0), jnp.where(visible, py, 0.0), jnp.where(visible, pz, 1.0)
+    a, b = px / pz, py / pz
     fx, fy = camera.focal
-    M = _image_axes(gaussians, T, (fx / pz, fy / pz), _clamped(a, b, camera, settings), keep)
+    M = _image_axes(quats, log_scales, T, (fx / pz, fy / pz), _clamped(a, b, camera, settings))
     xx, xy, yy = (sum(p * q for p, q in zip(M[i], M[j])) for i, j in ((0, 0), (0, 1), (1, 1)))
     minors = (M[0][i] * M[1][j] - M[0][j] * M[1][i] for i, j in ((0, 1), (0, 2), (1, 2)))
     det = sum(m * m for m in minors) + settings.blur * (xx + yy) + settings.blur**2
@@ -113,8 +146,8 @@ def _ellipses(
     projected = Projected(
         mean2d=mean2d,
         root=jnp.stack([jnp.sqrt(yy / det), -xy / jnp.sqrt(det * yy), 1 / jnp.sqrt(yy)]),
-        opacity=jax.nn.sigmoid(keep(gaussians.opacity_logits, 0.0)),
-        color=_colors(keep(gaussians.sh.T, 0.0), jnp.stack([x, y, z]), T),
+        opacity=jax.nn.sigmoid(opacity_logits),
+        color=_colors(sh, means, T),
         depth=pz,
         extent=jnp.zeros_like(mean2d),
     )
@@ -130,31 +163,42 @@ def _clamped(a, b, camera: Camera, settings: RasterSettings):
     return held
 
 
-def _image_axes(gaussians: Gaussians, T, scale, slope, keep):
-    """M = J R Q S: where each local axis of a gaussian, one standard deviation long, goes on the image; [2][3] rows of n."""
-    w, x, y, z = normalize_quat(keep(gaussians.quats.T, 0.0).T).T
-    Q = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    lengths = jnp.exp(keep(gaussians.log_scales.T, 0.0))
+def _image_axes(quats, log_scales, T, scale, slope):
+    """M = J R Q S: where each axis of a gaussian, one standard deviation long, goes on the image; [2][3] rows of n."""
+    Q = _rotations(quats)
+    lengths = [jnp.exp(row) for row in log_scales]
     # J R row by row first: two rows of three instead of a 3 x 3 product
     JR = [[scale[i] * (T[i, k] - slope[i] * T[2, k]) for k in range(3)] for i in range(2)]
     return [[sum(JR[i][k] * Q[k][j] for k in range(3)) * lengths[j] for j in range(3)] for i in range(2)]
 
 
+def _rotations(quats):
+    """Rotation matrices [3][3] of quaternions [4] of any length; the zero quaternion is the identity with zero gradient.
+
+    The rotation does not depend on the length, so dividing by the largest component is free of a derivative of its own.
+    """
+    largest = jax.lax.stop_gradient(functools.reduce(jnp.maximum, map(jnp.abs, quats)))
+    w, x, y, z = (row / jnp.where(largest == 0, 1.0, largest) for row in quats)
+    s = safe_div(jnp.full_like(w, 2.0), w * w + x * x + y * y + z * z)
+    return [
+        [1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+        [s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)],
+        [s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)],
+    ]
+
+
 def _colors(sh, x_world, T):
-    """0.5 + sum_k sh_k Y_k(direction from the camera); sh is (3, k, n). With one coefficient no direction is computed."""
-    degree = {1: 0, 4: 1, 9: 2, 16: 3}.get(sh.shape[1])
+    """0.5 + sum_k sh_k Y_k(direction from the camera), (3, n). With one coefficient no direction is computed."""
+    degree = {1: 0, 4: 1, 9: 2, 16: 3}.get(len(sh))
     if degree is None:
-        raise ValueError(f"gaussians.sh has {sh.shape[1]} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right")
+        raise ValueError(f"gaussians.sh has {len(sh)} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right")
     if degree == 0:
-        return 0.5 + harmonics(None, 0)[0] * sh[:, 0]
-    centre = -(T[:3, :3].T @ T[:3, 3])
-    away = (x_world - centre[:, None]).T
-    direction = safe_div(away, safe_norm(away)[:, None]).T
-    return 0.5 + sum(Y * sh[:, k] for k, Y in enumerate(harmonics(direction, degree)))
+        return 0.5 + harmonics(None, 0)[0] * sh[0]
+    # the camera stands at -R^T t
+    x, y, z = (x_world[k] + sum(T[i, k] * T[i, 3] for i in range(3)) for k in range(3))
+    length = safe_sqrt(x * x + y * y + z * z)
+    direction = jnp.stack([safe_div(x, length), safe_div(y, length), safe_div(z, length)])
+    return 0.5 + sum(Y * band for Y, band in zip(harmonics(direction, degree), sh))
 
 
 def _is_visible(raw: Projected, covariance, settings: RasterSettings) -> Bool[Array, " n"]:
