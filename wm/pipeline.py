@@ -7,13 +7,11 @@ missing, and ends with the same bytes as an undisturbed one. Each stage is a fun
 import dataclasses
 import importlib.metadata
 import json
-import os
 import pathlib
-
-import jax
 
 import wm
 from wm.artifacts import open_run_folder
+from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.schema import RunConfig
 from wm.stages.evaluation import METRICS, evaluate
@@ -45,7 +43,7 @@ def run(config: RunConfig, folder: pathlib.Path) -> dict:
       PlanError, ProposalError, ValueError: the plan or the views cannot be made as asked; the message says why.
       OSError: the folder cannot be written.
     """
-    _use_every_core()
+    prepare_process()
     # A view count of nothing is found here and not after an hour of work.
     if config.cameras.perimeter + config.cameras.overhead == 0 and not config.cameras.doorway:
         raise ValueError("cameras: no views at all: perimeter and overhead are 0 and doorway is false")
@@ -61,15 +59,6 @@ def run(config: RunConfig, folder: pathlib.Path) -> dict:
         metrics = report(job, scene, painted, result, metrics)
         print(_summary(folder, job, metrics))
         return metrics
-
-
-def _use_every_core() -> None:
-    """One JAX device per core: views and rooms in parallel beat threads inside an operation (design.md section 5)."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    try:
-        jax.config.update("jax_num_cpu_devices", cores)
-    except RuntimeError:
-        return  # a caller has started JAX already; its devices are used as they are
 
 
 def _header(config: RunConfig) -> dict:

@@ -133,8 +133,8 @@ class EvaluateConfig:
 class ReportConfig:
     enabled: bool = True
     video: bool = True
-    fps: int = 24
-    walking_speed: float = 1.4  # metres a second along the fly-through
+    fps: int = 15
+    walking_speed: float = 1.8  # metres a second along the fly-through
 
 
 @dataclass(kw_only=True, unsafe_hash=True)

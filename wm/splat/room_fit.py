@@ -27,7 +27,7 @@ Device = Any
 CULLED_LOGIT = -50.0
 """Opacity logit of padding: far below any alpha cut, so that padding is projected, culled, and neither listed nor moved."""
 
-HEADROOM = 1.5
+HEADROOM = 3.0
 """Room in a plan's capacity over what the first views need: gaussians grow while they are fitted."""
 
 

@@ -1,5 +1,6 @@
 """Renders of a scene whose gaussians are kept by room: only the rooms that a camera may see are projected."""
 
+import threading
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,21 +13,25 @@ from wm.splat.room_fit import Capacity, host, pad_gaussians, plan_with
 from wm.splat.step import project_view, rasterize_view
 from wm.types import Camera, Gaussians, Render
 
-_COLUMNS = 1.25
+_COLUMNS = 2.0
 """Room for growth in the padded number of visible gaussians, so that most views share one compiled pass."""
 
 
 class SceneRenderer:
-    """Renders views of many rooms; padded sizes only grow, so a walk through a scene compiles a handful of times."""
+    """Renders views of many rooms, from any number of threads.
+
+    Padded sizes only grow, so a walk through a scene compiles a handful of times.
+    """
 
     def __init__(self, rooms: Sequence[Gaussians], raster: RasterSettings, *, device: Any = None):
-        """Args: `rooms`, the gaussians of each room, on the host; `device`, the jax.Device that renders, JAX's default if None."""
+        """`rooms`: the gaussians of each room, on the host. `device`: the jax.Device that renders, JAX's default if None."""
         largest = max((len(room.opacity_logits) for room in rooms), default=0)
         self._device = device or jax.devices()[0]
         self._rooms = [jax.device_put(pad_gaussians(room, largest), self._device) if largest else None for room in rooms]
         self._raster = raster
         self._capacity = Capacity()
         self._columns = 1
+        self._growing = threading.Lock()
 
     def render(self, camera: Camera, rooms: Sequence[int], scaffold_depth: np.ndarray | None = None) -> Render:
         """What the camera sees (NumPy leaves), over black.
@@ -49,8 +54,10 @@ class SceneRenderer:
             return Render(rgb=np.zeros((camera.height, camera.width, 3), np.float32), depth=empty, alpha=empty)
         projected = join_columns(*seen)
         count = projected.opacity.shape[-1]
-        if count > self._columns:
-            self._columns = int(count * _COLUMNS)
-        projected = pad_columns(projected, self._columns)
+        with self._growing:
+            if count > self._columns:
+                self._columns = int(count * _COLUMNS)
+            columns = self._columns
+        projected = pad_columns(projected, columns)
         plan = plan_with(projected, camera.width, camera.height, self._raster, self._capacity)
         return host(rasterize_view(projected, plan, width=camera.width, height=camera.height, raster=self._raster))

@@ -6,12 +6,12 @@ import json
 from collections.abc import Iterator, Sequence
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 
 from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, coverage, navigability, visible_rooms
+from wm.host import cores
 from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
 from wm.splat.reprojection import overlap, reprojection_error, shared_pixels
 from wm.splat.scene_render import SceneRenderer
@@ -22,7 +22,9 @@ from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.reconstruction import Reconstruction
 from wm.stages.scene import Scene
-from wm.types import Gaussians, GBuffer, Render, SurfaceKind, View
+from wm.types import GBuffer, Render, SurfaceKind, View
+
+_ssim = jax.jit(ssim)
 
 EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
 
@@ -59,10 +61,9 @@ def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
     )
 
 
-def look_all(job: Job, scene: Scene, rooms: Sequence[Gaussians], views: Sequence[View]) -> Iterator[Seen]:
-    """Every view in order, one renderer a device."""
-    renderers = [SceneRenderer(rooms, job.config.raster, device=device) for device in jax.devices()]
-    return in_order(lambda renderer, view: look(scene, renderer, view), views, renderers)
+def look_all(scene: Scene, renderer: SceneRenderer, views: Sequence[View]) -> Iterator[Seen]:
+    """Every view in order, on every core."""
+    return in_order(lambda _, view: look(scene, renderer, view), views, range(cores()))
 
 
 def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict:
@@ -86,7 +87,7 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: He
     with job.bar("evaluate", len(scene.heldout)) as bar:
         for _, members in itertools.groupby(scene.heldout, key=lambda view: view.room):
             seen = []
-            for one in look_all(job, scene, result.rooms, list(members)):
+            for one in look_all(scene, result.renderer, list(members)):
                 row = _alignment(scene, one)
                 if heldout.known:
                     row |= _photometry(one.render.rgb, heldout.truth(one.view))
@@ -102,7 +103,7 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: He
 
 def _photometry(rgb: np.ndarray, truth: np.ndarray) -> dict[str, float]:
     clipped, world = np.clip(rgb, 0, 1), truth.astype(np.float32) / np.float32(255)
-    return {"psnr": psnr(clipped, world), "ssim": float(ssim(jnp.asarray(clipped), jnp.asarray(world)))}
+    return {"psnr": psnr(clipped, world), "ssim": float(_ssim(clipped, world))}
 
 
 def _alignment(scene: Scene, seen: Seen) -> dict[str, float]:

@@ -10,9 +10,11 @@ import numpy as np
 from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, visible_rooms
+from wm.host import cores
 from wm.splat.cloud import initial_gaussians
 from wm.splat.ply import save_ply
 from wm.splat.scene_fit import fit_scene
+from wm.splat.scene_render import SceneRenderer
 from wm.splat.training import TrainingView
 from wm.stages.heldout import HeldOut
 from wm.stages.job import Job
@@ -34,6 +36,7 @@ class Reconstruction:
     rooms: tuple[Gaussians, ...]  # by room, NumPy
     history: tuple[dict, ...]  # error against wall-clock; empty if the fit was taken from a folder without its history
     key: str
+    renderer: SceneRenderer  # of the rooms
 
 
 def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut) -> Reconstruction:
@@ -44,8 +47,10 @@ def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut) -> R
         if not job.folder.has("reconstruct", key):
             _fit(job, scene, painted, heldout, key)
         history = job.folder.path / HISTORY
+        rooms = _split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes()))
         return Reconstruction(
-            rooms=_split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes())),
+            rooms=rooms,
+            renderer=SceneRenderer(rooms, config.raster),
             history=tuple(json.loads(history.read_text())) if history.is_file() else (),
             key=key,
         )
@@ -120,6 +125,8 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) ->
             load=load,
             store=store,
             progress=progress,
+            # One room a core on one device: a step is compiled once, and XLA runs the calls of different threads side by side.
+            devices=jax.devices()[:1] * cores(),
         )
     for line in result.stopped:
         print(f"reconstruct: {line}")

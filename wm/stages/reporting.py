@@ -45,8 +45,8 @@ def _page(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> R
         plan=scene.plan,
         objects=scene.objects,
         views=scene.views,
-        sheets=_sheets(job, scene, painted, result),
-        heroes=_heroes(job, scene, result),
+        sheets=_sheets(scene, painted, result),
+        heroes=_heroes(scene, result),
         metrics={},
         timings={},
         history=_scene_curve(result.history),
@@ -63,7 +63,7 @@ def _video(job: Job, scene: Scene, result: Reconstruction) -> bytes:
 
         def frames() -> Iterator[np.ndarray]:
             with job.bar("video", len(views)) as bar:
-                for seen in look_all(job, scene, result.rooms, views):
+                for seen in look_all(scene, result.renderer, views):
                     yield to_bytes(seen.render.rgb)
                     bar.update()
 
@@ -71,14 +71,14 @@ def _video(job: Job, scene: Scene, result: Reconstruction) -> bytes:
     return (job.folder.path / VIDEO).read_bytes()
 
 
-def _sheets(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict[str, list[SheetRow]]:
+def _sheets(scene: Scene, painted: Painted, result: Reconstruction) -> dict[str, list[SheetRow]]:
     shown = []
     for index in range(len(scene.plan.rooms)):
         members = [view for view in scene.views if view.room == index]
         firsts = (next((view for view in members if view.kind == kind), None) for kind in SHEET_KINDS)
         shown += [view for view in firsts if view is not None]
     sheets: dict[str, list[SheetRow]] = {room: [] for room in scene.rooms}
-    for seen in look_all(job, scene, result.rooms, shown):
+    for seen in look_all(scene, result.renderer, shown):
         sheets[scene.rooms[seen.view.room]].append(_sheet_row(painted, seen))
     return sheets
 
@@ -99,10 +99,10 @@ def _sheet_row(painted: Painted, seen: Seen) -> SheetRow:
     )
 
 
-def _heroes(job: Job, scene: Scene, result: Reconstruction) -> dict[str, np.ndarray]:
+def _heroes(scene: Scene, result: Reconstruction) -> dict[str, np.ndarray]:
     """One held-out view a room: the one that sees farthest, so that most of the room is in it."""
     best: dict[str, Seen] = {}
-    for seen in look_all(job, scene, result.rooms, scene.heldout):
+    for seen in look_all(scene, result.renderer, scene.heldout):
         room = scene.rooms[seen.view.room]
         if room not in best or _reach(seen) > _reach(best[room]):
             best[room] = seen
