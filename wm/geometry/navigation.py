@@ -64,7 +64,7 @@ def walkable_floor(plan: FloorPlan) -> BaseGeometry:
     return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.kind != "window")])
 
 
-def outlines(things: Iterable[Float[np.ndarray, "v 3"]], low: float, high: float) -> BaseGeometry:
+def outlines(things: Iterable[Float[np.ndarray, "_ 3"]], low: float, high: float) -> BaseGeometry:
     """The union, from above, of the convex outlines of the things' parts below `high`; things that end below `low` have none."""
     hulls = []
     for vertices in things:
@@ -75,7 +75,7 @@ def outlines(things: Iterable[Float[np.ndarray, "v 3"]], low: float, high: float
 
 
 def body_floor(
-    plan: FloorPlan, things: Iterable[Float[np.ndarray, "v 3"]], *, height: float, radius: float
+    plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3"]], *, height: float, radius: float
 ) -> BaseGeometry:
     """Where the centre of a body of this height and radius can be among these things."""
     return walkable_floor(plan).difference(outlines(things, FLAT, height)).buffer(-radius)

@@ -1,6 +1,7 @@
-"""The fly-through as an H.264 video."""
+"""The fly-through as an H.264 video, encoded by the ffmpeg binary that imageio-ffmpeg ships."""
 
 import pathlib
+import subprocess
 from collections.abc import Iterable
 
 import imageio_ffmpeg
@@ -10,7 +11,7 @@ CRF = 23
 
 
 def write_video(path: pathlib.Path, frames: Iterable[np.ndarray], *, fps: int) -> int:
-    """Encodes frames to an MP4 that browsers play.
+    """Encodes frames to an MP4 that browsers play; equal frames give equal bytes.
 
     Args:
       path: the file; written in place, so give a temporary name and rename it.
@@ -19,27 +20,36 @@ def write_video(path: pathlib.Path, frames: Iterable[np.ndarray], *, fps: int) -
 
     Returns:
       How many frames were written; with none, no file is made.
+
+    Raises:
+      RuntimeError: ffmpeg failed; the message holds what it said.
     """
     count = 0
-    writer = None
+    encoder = None
     try:
         for frame in frames:
             height, width = frame.shape[0] // 2 * 2, frame.shape[1] // 2 * 2
-            if writer is None:
-                writer = imageio_ffmpeg.write_frames(
-                    str(path),
-                    (width, height),
-                    fps=fps,
-                    codec="libx264",
-                    macro_block_size=1,
-                    pix_fmt_out="yuv420p",
-                    output_params=f"-crf {CRF} -preset veryfast -movflags +faststart -threads 2 -bitexact".split(),
-                    ffmpeg_log_level="error",
-                )
-                writer.send(None)
-            writer.send(np.ascontiguousarray(frame[:height, :width]))
+            encoder = encoder or _start(path, width, height, fps)
+            assert encoder.stdin is not None
+            encoder.stdin.write(np.ascontiguousarray(frame[:height, :width]).tobytes())
             count += 1
-    finally:
-        if writer is not None:
-            writer.close()
+    except BrokenPipeError:
+        pass  # ffmpeg has ended early: what it said follows
+    except BaseException:
+        if encoder is not None:
+            encoder.kill()
+            encoder.communicate()
+        raise
+    if encoder is not None:
+        _, said = encoder.communicate()
+        if encoder.returncode:
+            raise RuntimeError(f"{path}: ffmpeg could not write the video: {said.decode(errors='replace').strip()}")
     return count
+
+
+def _start(path: pathlib.Path, width: int, height: int, fps: int) -> subprocess.Popen:
+    raw = f"-f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {fps} -i -"
+    coded = f"-c:v libx264 -crf {CRF} -preset veryfast -pix_fmt yuv420p -movflags +faststart -threads 2 -bitexact"
+    command = [imageio_ffmpeg.get_ffmpeg_exe(), *f"-y -loglevel error {raw} {coded} -f mp4".split(), str(path)]
+    # A session of its own: Ctrl-C is for this process, which then ends the encoder itself.
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)

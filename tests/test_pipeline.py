@@ -1,0 +1,109 @@
+"""A whole run, small: its artifacts, and that interrupted or damaged runs end with the bytes of an undisturbed one."""
+
+import json
+import pathlib
+
+import pytest
+
+from wm.artifacts import ArtifactError, RunFolder
+from wm.pipeline import run
+from wm.run import load_config
+
+SMALL = (
+    "scene.name=cell",
+    "scene.theme='a plain cabin'",
+    "scene.rooms=[bedroom]",
+    "preset=draft",
+    "cameras.width=96",
+    "cameras.height=64",
+    "cameras.perimeter=2",
+    "cameras.overhead=1",
+    "cameras.heldout_per_room=2",
+    "texture.texel_size=0.1",
+    "image.texel_size=0.1",
+    "fit.spacing=0.2",
+    "fit.steps=4",
+    "fit.curve_points=2",
+    "report.fps=1",
+)
+METRICS = (
+    "psnr ssim m_mae m_rmse n_cos n_ang_deg reproj_mae_norm reproj_absrel navigability navigability_body coverage_1 coverage_3 "
+    "yield atm rooms views gaussians seconds peak_gib"
+)
+CLOCKED = {"timings.json", "layout.json", "metrics.json", "report.html", "history.json", ".lock"}
+"""Files that say how long things took."""
+
+
+def _bytes(folder: pathlib.Path) -> dict[str, bytes]:
+    files = (path for path in sorted(folder.rglob("*")) if path.is_file() and path.name not in CLOCKED)
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files}
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("whole")
+    run(load_config(SMALL), folder)
+    return folder
+
+
+def test_everything_promised_is_there(whole):
+    names = set(_bytes(whole)) | {path.name for path in whole.iterdir()}
+    for name in ("plan.json", "scaffold.glb", "cameras.json", "splats.ply", "objects.json", "flythrough.mp4", "manifest.json"):
+        assert name in names
+    assert set(json.loads((whole / "metrics.json").read_text())) == set(METRICS.split())
+    assert json.loads((whole / "metrics.json").read_text())["views"] == len(list((whole / "views").rglob("*.depth.png")))
+    assert {"plan", "paint", "reconstruct", "evaluate", "report"} <= set(json.loads((whole / "timings.json").read_text()))
+    assert "<svg" in (whole / "report.html").read_text()
+    assert not list(whole.rglob(".part-*"))
+
+
+def test_an_interrupted_run_resumes_to_the_same_bytes(whole, tmp_path, monkeypatch):
+    save, calls = RunFolder.save, []
+
+    def save_until(limit):
+        def interrupted(self, *arguments):
+            calls.append(arguments[0])
+            if len(calls) == limit:
+                raise KeyboardInterrupt
+            return save(self, *arguments)
+
+        return interrupted
+
+    for limit in (4, 6, 3):  # in the painting, in what follows, and near the end
+        calls.clear()
+        monkeypatch.setattr(RunFolder, "save", save_until(limit))
+        with pytest.raises(KeyboardInterrupt):
+            run(load_config(SMALL), tmp_path)
+    calls.clear()
+    monkeypatch.setattr(RunFolder, "save", save_until(-1))
+    run(load_config(SMALL), tmp_path)
+    assert "plan" not in calls  # finished stages were not done again
+    assert _bytes(tmp_path) == _bytes(whole)
+
+
+def test_damage_is_said_and_mended(whole, tmp_path, capsys):
+    config = load_config(SMALL)
+    for name, data in _bytes(whole).items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes(data)
+    view = next((tmp_path / "views").rglob("bootstrap0.png"))
+    view.write_bytes(view.read_bytes()[:100])
+    (tmp_path / "splats.ply").unlink()
+    run(config, tmp_path)
+    said = capsys.readouterr().out
+    assert "bootstrap0.png: damaged" in said and "splats.ply: missing" in said
+    assert _bytes(tmp_path) == _bytes(whole)
+
+
+def test_another_configuration_does_not_share_the_folder(whole):
+    before = _bytes(whole)
+    with pytest.raises(ArtifactError, match=r"config\.fit\.steps=4 \(this one: 5\)"):
+        run(load_config([*SMALL[:-3], "fit.steps=5", *SMALL[-2:]]), whole)
+    assert _bytes(whole) == before
+
+
+def test_no_views_is_an_error_before_any_work(tmp_path):
+    config = load_config([*SMALL, "cameras.perimeter=0", "cameras.overhead=0", "cameras.doorway=false"])
+    with pytest.raises(ValueError, match="no views"):
+        run(config, tmp_path / "never")
+    assert not (tmp_path / "never").exists()
