@@ -8,6 +8,7 @@ Sorts are stable: depths as two argsorts of uint16 keys, which NumPy does by rad
 from coordinates to rows, which is a counting sort. Order in a tile: by depth, equal depths by index.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -136,7 +137,7 @@ def _columns_touched(gaussian, row, mean, root, opacity, extent, width: int, set
 def _capacity(entries: int, wanted: int | None) -> int:
     size = BASE if wanted is None else max(wanted, 1)
     while size < entries:
-        size = int(size * GROWTH)
+        size = math.ceil(size * GROWTH)
     return size
 
 
