@@ -1,4 +1,5 @@
-"""Iterations and processor time of the propose - validate - correct loop over many seeds; writes results.csv and prints the table.
+"""Iterations and processor time of the propose - validate - correct loop over many seeds; writes results.csv and
+prints the table.
 
 python experiments/layout_statistics/measure.py --seeds 200
 """
