@@ -69,6 +69,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "report.fps": (1, 240),
     "report.walking_speed": (0.05, 50),
     "image.drift": (0, 1),
+    "image.texel_size": (0.001, 1),
     "image.supersampling": (1, 16),
     "depth.noise": (0, 10),
     "depth.softness": (0, 100),
