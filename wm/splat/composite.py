@@ -13,10 +13,11 @@ S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so it i
 
 Sums over a tile's pixels are one product with the basis {1, u, v, u^2, uv, v^2}, (u, v) from the tile's centre; the derivatives
 by mean and root follow from those six moments. Tiers: a block of tiles advances together, a chunk of gaussians at a time, so
-the overhead of a loop iteration is paid once for block x tile^2 x chunk pairs. Everything before the exponential is decided in
-its argument (clamp, cut, end of the list), because XLA on a CPU computes an exponential once and cheap operations once a use.
+the overhead of a loop iteration is paid once for block x tile^2 x chunk pairs. Alphas, and in the backward pass the recurrence,
+are compiled apart from their uses (_apart.py), which would otherwise each repeat them.
 """
 
+import math
 from typing import Any
 
 import jax
@@ -26,6 +27,8 @@ from jaxtyping import Array, Float
 
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
+from wm.splat._apart import apart
+from wm.splat._exp2 import exp2_between
 from wm.splat.project import DEFAULTS, Projected
 from wm.splat.tiles import TilePlan
 from wm.types import Render, record
@@ -35,6 +38,9 @@ GEOMETRY = 6
 
 CLAMPED = 1e-6
 """Alphas closer than this (relative) to alpha_max are the clamped ones: the exponential of the clamp rounds."""
+
+STRIDE = 2
+"""Gaussians that the backward pass takes at once before it stores what it has: each of its results repeats the recurrence."""
 
 
 @record
@@ -79,9 +85,9 @@ def rasterize(
 def _table(projected: Projected, settings: RasterSettings) -> Float[Array, "rows columns"]:
     """One row a gaussian, and a last row of zero opacity at which the padding of a plan points."""
     culled = projected.opacity <= 0
-    log_opacity = jnp.where(culled, -jnp.inf, jnp.log(jnp.where(culled, 1.0, projected.opacity)))
+    log_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
     features = [projected.color, projected.depth[None]] if settings.depth else [projected.color]
-    columns = jnp.concatenate([projected.mean2d, projected.root * np.sqrt(0.5), log_opacity[None], *features])
+    columns = jnp.concatenate([projected.mean2d, projected.root * np.sqrt(0.5 * np.log2(np.e)), log_opacity[None], *features])
     return jnp.pad(columns.T, ((0, 1), (0, 0)), constant_values=0.0).at[-1, GEOMETRY - 1].set(-jnp.inf)
 
 
@@ -100,7 +106,7 @@ def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> C
 
         def step(state):
             i, length, t, F = state
-            _, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings.chunk, settings)
+            _, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
             for k in range(settings.chunk):
                 w = jnp.where(t >= settings.transmittance_min, alpha[:, k] * t, 0.0)
                 F = [f + g[:, k, GEOMETRY + j, None] * w for j, f in enumerate(F)]
@@ -129,8 +135,21 @@ def _composite_fwd(table, plan: TilePlan, columns: int, settings: RasterSettings
 
 def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent: Composite):
     table, plan, composite = residuals
-    chunk = max(settings.chunk // 2, 1)  # the recurrence is recomputed along the chunk for each output: shorter is cheaper here
     basis = _basis(settings.tile)
+
+    def advance(t, rest, alpha, features, g_F):
+        """Some gaussians farther: weights w and dL/d log alpha of each, transmittance and rest after them."""
+        ws, ds = [], []
+        for k in range(alpha.shape[1]):
+            a = alpha[:, k]
+            value = sum(features[:, k, j, None] * g_F[:, j] for j in range(g_F.shape[1]))
+            w = jnp.where(t >= settings.transmittance_min, a * t, 0.0)
+            rest = rest - w * value
+            free = (w > 0) & (a < settings.alpha_max * (1 - CLAMPED))
+            ds.append(jnp.where(free, w * value - rest * (a / (1 - a)), 0.0))
+            ws.append(w)
+            t = t - w
+        return t, rest, ws, ds
 
     def block(gradient, lanes):
         # lanes that end together walk together: the forward pass knows where each ends
@@ -139,19 +158,14 @@ def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent:
 
         def step(state):
             i, t, rest, gradient = state
-            entry, g, alpha = _alphas(table, plan.ids, origin, start, count, i, chunk, settings)
+            entry, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
             ws, ds = [], []
-            for k in range(chunk):
-                a = alpha[:, k]
-                value = sum(g[:, k, GEOMETRY + j, None] * g_F[:, j] for j in range(g_F.shape[1]))
-                w = jnp.where(t >= settings.transmittance_min, a * t, 0.0)
-                rest = rest - w * value
-                free = (w > 0) & (a < settings.alpha_max * (1 - CLAMPED))
-                ds.append(jnp.where(free, w * value - rest * (a / (1 - a)), 0.0))
-                ws.append(w)
-                t = t - w
+            for k in range(0, settings.chunk, STRIDE):
+                part = slice(k, k + STRIDE)
+                t, rest, w, d = apart(start[0] < 0, advance, t, rest, alpha[:, part], g[:, part, GEOMETRY:], g_F)
+                ws, ds = ws + w, ds + d
             rows = _gradient_rows(g, origin, jnp.stack(ds, 1), jnp.stack(ws, 1), g_F, basis)
-            return i + chunk, t, rest, gradient.at[entry].add(rows, mode="promise_in_bounds")
+            return i + settings.chunk, t, rest, gradient.at[entry].add(rows, mode="promise_in_bounds")
 
         rest = (F_final * g_F).sum(1) + t_final * g_t
         state = (jnp.int32(0), jnp.ones_like(t_final), rest, gradient)
@@ -187,22 +201,27 @@ def _offsets(tile: int):
 def _basis(tile: int):
     u, v = _offsets(tile)
     zero = np.zeros_like(u)  # eight columns multiply faster than six
-    return jnp.asarray(np.stack([np.ones_like(u), u, v, u * u, u * v, v * v, zero, zero], -1))
+    return jnp.asarray(np.log(2) * np.stack([np.ones_like(u), u, v, u * u, u * v, v * v, zero, zero], -1), jnp.float32)
 
 
-def _alphas(table, ids, origin, start, count, i, chunk: int, settings: RasterSettings):
+def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
     """The chunk at i: gaussians [lanes, chunk], their rows [lanes, chunk, columns], their alphas [lanes, chunk, pixels]."""
-    step = i + jnp.arange(chunk)
+    step = i + jnp.arange(settings.chunk)
     listed = step < count[:, None]
     entry = ids.at[start[:, None] + step].get(mode="clip")
     g = table.at[entry].get(mode="promise_in_bounds")
     u, v = _offsets(settings.tile)
-    dx = u - (g[..., 0] - origin[:, None, 0])[..., None]
-    dy = v - (g[..., 1] - origin[:, None, 1])[..., None]
-    log_opacity = jnp.where(listed, g[..., 5], -jnp.inf)[..., None]
-    log_alpha = log_opacity - (g[..., 2, None] * dx + g[..., 3, None] * dy) ** 2 - (g[..., 4, None] * dy) ** 2
-    kept = log_alpha >= np.log(settings.alpha_min)
-    return entry, g, jnp.exp(jnp.where(kept, jnp.minimum(log_alpha, np.log(settings.alpha_max)), -jnp.inf))
+    lowest, highest = math.log2(settings.alpha_min), math.log2(settings.alpha_max)
+
+    def alphas(x, y, l0, l1, l2, log_opacity):
+        dx, dy = u - x[..., None], v - y[..., None]
+        log_alpha = log_opacity[..., None] - (l0[..., None] * dx + l1[..., None] * dy) ** 2 - (l2[..., None] * dy) ** 2
+        kept = log_alpha >= lowest
+        return jnp.where(kept, exp2_between(jnp.where(kept, jnp.minimum(log_alpha, highest), 0.0), lowest), 0.0)
+
+    x, y = g[..., 0] - origin[:, None, 0], g[..., 1] - origin[:, None, 1]
+    log_opacity = jnp.where(listed, g[..., 5], -jnp.inf)
+    return entry, g, apart(start[0] < 0, alphas, x, y, g[..., 2], g[..., 3], g[..., 4], log_opacity)
 
 
 def _gradient_rows(g, origin, d_log_alpha, w, g_F, basis):

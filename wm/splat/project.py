@@ -23,6 +23,7 @@ from jaxtyping import Array, Bool, Float
 
 from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
+from wm.splat._apart import apart
 from wm.splat.harmonics import harmonics
 from wm.types import Camera, Gaussians, record
 
@@ -88,7 +89,9 @@ def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
     def pull(rows, camera, masked):
         return jax.vjp(lambda r, c: _ellipses(r, c, settings, visible)[0], rows, camera)[1](masked)
 
-    means, quats, log_scales, opacity_logits, sh = _apart(lambda *x: pull(*x)[0], rows, camera, masked)
+    never = camera.focal[0] == -jnp.inf
+    # each result is then a loop of its own over its row; stacked in the same loop, none of them would be vectorised
+    means, quats, log_scales, opacity_logits, sh = apart(never, lambda *x: pull(*x)[0], rows, camera, masked)
     by_gaussians = Gaussians(
         means=jnp.stack(means, 1),
         quats=jnp.stack(quats, 1),
@@ -114,16 +117,6 @@ def _rows(gaussians: Gaussians):
 
     sh = [gaussians.sh[:, k].T for k in range(gaussians.sh.shape[1])]
     return split(gaussians.means), split(gaussians.quats), split(gaussians.log_scales), gaussians.opacity_logits, sh
-
-
-def _apart(f, *args):
-    """f(*args), compiled apart from what surrounds it: the other branch is never taken and XLA does not know.
-
-    Each result is then a loop of its own over its row; stacked in the same loop, none of them would be vectorised.
-    """
-    nothing = jax.tree.map(lambda x: jnp.zeros(x.shape, x.dtype), jax.eval_shape(f, *args))
-    never = jnp.max(jax.tree.leaves(args)[0], initial=-jnp.inf) == jnp.inf
-    return jax.lax.cond(never, lambda *_: nothing, f, *args)
 
 
 def _ellipses(
