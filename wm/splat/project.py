@@ -23,7 +23,8 @@ from jaxtyping import Array, Bool, Float
 
 from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
-from wm.splat._apart import apart
+from wm.splat._axes import clamped, rotations
+from wm.splat._pullback import pull_ellipses
 from wm.splat.harmonics import harmonics
 from wm.types import Camera, Gaussians, record
 
@@ -86,20 +87,21 @@ def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
     rows = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), _rows(gaussians))
     masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), dataclasses.replace(cotangent, extent=jnp.zeros((2, 1))))
 
-    def pull(rows, camera, masked):
-        return jax.vjp(lambda r, c: _ellipses(r, c, settings, visible)[0], rows, camera)[1](masked)
-
-    never = camera.focal[0] == -jnp.inf
-    # each result is then a loop of its own over its row; stacked in the same loop, none of them would be vectorised
-    means, quats, log_scales, opacity_logits, sh = apart(never, lambda *x: pull(*x)[0], rows, camera, masked)
+    means, quats, log_scales, opacity_logits, sh = rows
+    by_means, by_quats, by_scales = pull_ellipses(means, quats, log_scales, camera, settings, visible, masked)
+    _, pull_colors = jax.vjp(lambda sh, means: _colors(sh, means, camera.T_cam_world), sh, means)
+    by_sh, by_direction = pull_colors(masked.color)
+    opacity = jax.nn.sigmoid(opacity_logits)
     by_gaussians = Gaussians(
-        means=jnp.stack(means, 1),
-        quats=jnp.stack(quats, 1),
-        log_scales=jnp.stack(log_scales, 1),
-        opacity_logits=opacity_logits,
-        sh=jnp.stack([band.T for band in sh], 1),
+        means=jnp.stack([shift + turn for shift, turn in zip(by_means, by_direction)], 1),
+        quats=jnp.stack(by_quats, 1),
+        log_scales=jnp.stack(by_scales, 1),
+        opacity_logits=masked.opacity * opacity * (1 - opacity),
+        sh=jnp.stack([band.T for band in by_sh], 1),
     )
-    return by_gaussians, pull(rows, camera, masked)[1]
+    # by the camera there are few numbers and many sums: the plain derivative, compiled only where somebody asks for it
+    _, pull_camera = jax.vjp(lambda camera: _ellipses(rows, camera, settings, visible)[0], camera)
+    return by_gaussians, pull_camera(masked)[0]
 
 
 _project.defvjp(_project_fwd, _project_bwd)
@@ -130,7 +132,8 @@ def _ellipses(
         px, py, pz = jnp.where(visible, px, 0.0), jnp.where(visible, py, 0.0), jnp.where(visible, pz, 1.0)
     a, b = px / pz, py / pz
     fx, fy = camera.focal
-    M = _image_axes(quats, log_scales, T, (fx / pz, fy / pz), _clamped(a, b, camera, settings))
+    slopes = [clamped(slope, axis, camera, settings)[0] for axis, slope in enumerate((a, b))]
+    M = _image_axes(quats, log_scales, T, (fx / pz, fy / pz), slopes)
     xx, xy, yy = (sum(p * q for p, q in zip(M[i], M[j])) for i, j in ((0, 0), (0, 1), (1, 1)))
     minors = (M[0][i] * M[1][j] - M[0][j] * M[1][i] for i, j in ((0, 1), (0, 2), (1, 2)))
     det = sum(m * m for m in minors) + settings.blur * (xx + yy) + settings.blur**2
@@ -147,37 +150,13 @@ def _ellipses(
     return projected, jnp.stack([xx, yy])
 
 
-def _clamped(a, b, camera: Camera, settings: RasterSettings):
-    """Slopes (a, b) held within the margin around the frustum: farther out the linearised projection means nothing."""
-    held = []
-    for slope, focal, centre, size in zip((a, b), camera.focal, camera.principal, (camera.width, camera.height)):
-        margin = (settings.frustum_margin - 1) * 0.5 * size / focal
-        held.append(jnp.clip(slope, -centre / focal - margin, (size - centre) / focal + margin))
-    return held
-
-
 def _image_axes(quats, log_scales, T, scale, slope):
     """M = J R Q S: where each axis of a gaussian, one standard deviation long, goes on the image; [2][3] rows of n."""
-    Q = _rotations(quats)
+    Q = rotations(quats)
     lengths = [jnp.exp(row) for row in log_scales]
     # J R row by row first: two rows of three instead of a 3 x 3 product
     JR = [[scale[i] * (T[i, k] - slope[i] * T[2, k]) for k in range(3)] for i in range(2)]
     return [[sum(JR[i][k] * Q[k][j] for k in range(3)) * lengths[j] for j in range(3)] for i in range(2)]
-
-
-def _rotations(quats):
-    """Rotation matrices [3][3] of quaternions [4] of any length; the zero quaternion is the identity with zero gradient.
-
-    The rotation does not depend on the length, so dividing by the largest component is free of a derivative of its own.
-    """
-    largest = jax.lax.stop_gradient(functools.reduce(jnp.maximum, map(jnp.abs, quats)))
-    w, x, y, z = (row / jnp.where(largest == 0, 1.0, largest) for row in quats)
-    s = safe_div(jnp.full_like(w, 2.0), w * w + x * x + y * y + z * z)
-    return [
-        [1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
-        [s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)],
-        [s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)],
-    ]
 
 
 def _colors(sh, x_world, T):

@@ -1,0 +1,36 @@
+"""What the projection and its derivative share: how a gaussian's axes turn, and where the camera's slopes are clamped."""
+
+import functools
+
+import jax
+import jax.numpy as jnp
+
+from wm.numerics import safe_div
+from wm.schema import RasterSettings
+from wm.types import Camera
+
+
+def rotations(quats):
+    """Rotation matrices [3][3] of quaternions [4] of any length; the zero quaternion is the identity with zero gradient.
+
+    The rotation does not depend on the length, so dividing by the largest component is free of a derivative of its own.
+    """
+    largest = jax.lax.stop_gradient(functools.reduce(jnp.maximum, map(jnp.abs, quats)))
+    w, x, y, z = (row / jnp.where(largest == 0, 1.0, largest) for row in quats)
+    s = safe_div(jnp.full_like(w, 2.0), w * w + x * x + y * y + z * z)
+    return [
+        [1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
+        [s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)],
+        [s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)],
+    ]
+
+
+def clamped(slope, axis: int, camera: Camera, settings: RasterSettings):
+    """A slope x / z (axis 0) or y / z (1) held within the margin around the frustum, and where it is free.
+
+    Farther out the linearised projection means nothing.
+    """
+    focal, centre, size = camera.focal[axis], camera.principal[axis], (camera.width, camera.height)[axis]
+    margin = (settings.frustum_margin - 1) * 0.5 * size / focal
+    low, high = -centre / focal - margin, (size - centre) / focal + margin
+    return jnp.clip(slope, low, high), (slope > low) & (slope < high)

@@ -1,0 +1,115 @@
+"""The derivative of the projection by the gaussians, by hand: a few passes over rows of n, each compiled apart.
+
+With M = J R Q S (project.py), B = J R Q, N = M_0 x M_1, det = N . N + blur trace(M M^T) + blur^2 and the cotangents g of
+l = (sqrt(yy / det), -xy / sqrt(det yy), 1 / sqrt(yy)):
+
+    dL/d det = -(g0 l0 + g1 l1) / 2 det,   dL/d xy = -g1 / sqrt(det yy),   dL/d yy = (g0 l0 - g1 l1 - g2 l2) / 2 yy,
+    dL/d M_0 = 2 dL/d det (M_1 x N + blur M_0) + dL/d xy M_1,
+    dL/d M_1 = 2 dL/d det (N x M_0 + blur M_1) + dL/d xy M_0 + 2 dL/d yy M_1.
+
+A log scale moves its column of M along itself. A turn by w in the gaussian's own axes moves B by B x w, so the torque is
+t = sum_i (dL/d B_i) x B_i, and dL/dq = 2 q (0, t) / |q|^2 as quaternions. The mean acts through mean2d, depth, the scale f / z of
+J and its slopes, as far as those are not clamped. Nothing is divided by a difference, so needles keep their digits.
+"""
+
+import jax.numpy as jnp
+from jaxtyping import Array, Bool
+
+from wm.numerics import safe_div
+from wm.schema import RasterSettings
+from wm.splat._apart import apart
+from wm.splat._axes import clamped, rotations
+from wm.types import Camera
+
+
+def pull_ellipses(means, quats, log_scales, camera: Camera, settings: RasterSettings, visible: Bool[Array, " n"], cotangent):
+    """Cotangents of means [3], quats [4] and log_scales [3] (rows of n) from those of mean2d, root and depth.
+
+    Args:
+        means, quats, log_scales: rows of n, finite.
+        camera: float32 arrays.
+        settings: blur and frustum_margin are read.
+        visible: where False, all results are 0.
+        cotangent: `Projected` whose mean2d, root and depth are 0 where not visible.
+    """
+    never = camera.focal[0] == -jnp.inf
+    R, f = camera.T_cam_world, camera.focal
+
+    def place(means):
+        x, y, z = (sum(R[i, k] * means[k] for k in range(3)) + R[i, 3] for i in range(3))
+        inverse = 1 / jnp.where(visible, z, 1.0)
+        return jnp.where(visible, x, 0.0) * inverse, jnp.where(visible, y, 0.0) * inverse, inverse
+
+    def axes(means, quats):
+        """B [2][3], and the third row of R Q."""
+        a, b, inverse = place(means)
+        Q = rotations(quats)
+        RQ = [[sum(R[i, k] * Q[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+        slopes = [clamped(s, i, camera, settings)[0] for i, s in enumerate((a, b))]
+        return [[f[i] * inverse * (RQ[i][j] - slopes[i] * RQ[2][j]) for j in range(3)] for i in range(2)], RQ[2]
+
+    def by_covariance(B, log_scales, g):
+        """dL/d det, dL/d xy, dL/d yy."""
+        M = _scaled(B, log_scales)
+        N = _cross(*M)
+        xx, xy, yy = _dot(M[0], M[0]), _dot(M[0], M[1]), _dot(M[1], M[1])
+        det = _dot(N, N) + settings.blur * (xx + yy) + settings.blur**2
+        yy = yy + settings.blur
+        root = 1 / jnp.sqrt(det * yy)
+        g0, g1, g2 = g[0] * yy * root, -g[1] * xy * root, g[2] / jnp.sqrt(yy)  # g_k l_k
+        return -0.5 * (g0 + g1) / det, -g[1] * root, 0.5 * (g0 - g1 - g2) / yy
+
+    def by_axes(B, log_scales, g_det, g_xy, g_yy):
+        """dL/d M times the lengths, which is dL/d B, [2][3]."""
+        M = _scaled(B, log_scales)
+        N = _cross(*M)
+        lengths = [jnp.exp(row) for row in log_scales]
+        toward, away = _cross(M[1], N), _cross(N, M[0])
+        first = [2 * g_det * (toward[j] + settings.blur * M[0][j]) + g_xy * M[1][j] for j in range(3)]
+        second = [2 * g_det * (away[j] + settings.blur * M[1][j]) + g_xy * M[0][j] + 2 * g_yy * M[1][j] for j in range(3)]
+        return [[row[j] * lengths[j] for j in range(3)] for row in (first, second)]
+
+    def by_shape(B, g_B):
+        """Cotangents of the log scales, and the torque."""
+        turns = [_cross(g_B[i], B[i]) for i in range(2)]
+        stretch = [g_B[0][j] * B[0][j] + g_B[1][j] * B[1][j] for j in range(3)]
+        return stretch, [turns[0][j] + turns[1][j] for j in range(3)]
+
+    def by_quats(quats, torque):
+        largest = jnp.maximum(jnp.maximum(abs(quats[0]), abs(quats[1])), jnp.maximum(abs(quats[2]), abs(quats[3])))
+        w, x, y, z = (row / jnp.where(largest == 0, 1.0, largest) for row in quats)
+        scale = safe_div(jnp.full_like(w, 2.0), (w * w + x * x + y * y + z * z) * largest)
+        u, v, t = (scale * row for row in torque)
+        return [-(x * u + y * v + z * t), w * u + y * t - z * v, w * v + z * u - x * t, w * t + x * v - y * u]
+
+    def by_means(means, third, B, g_B, g_mean2d, g_depth):
+        a, b, inverse = place(means)
+        through = []
+        for i, slope in enumerate((a, b)):
+            free = clamped(slope, i, camera, settings)[1]
+            through.append(f[i] * g_mean2d[i] - jnp.where(free, f[i] * inverse * _dot(g_B[i], third), 0.0))
+        x, y = (row * inverse for row in through)
+        z = g_depth - a * x - b * y - inverse * (_dot(g_B[0], B[0]) + _dot(g_B[1], B[1]))
+        return [jnp.where(visible, R[0, k] * x + R[1, k] * y + R[2, k] * z, 0.0) for k in range(3)]
+
+    B, third = apart(never, axes, means, quats)
+    g_cov = apart(never, by_covariance, B, log_scales, list(cotangent.root))
+    g_B = apart(never, by_axes, B, log_scales, *g_cov)
+    g_scales, torque = apart(never, by_shape, B, g_B)
+    g_quats = apart(never, by_quats, quats, torque)
+    g_means = apart(never, by_means, means, third, B, g_B, list(cotangent.mean2d), cotangent.depth)
+    return g_means, g_quats, g_scales
+
+
+def _scaled(B, log_scales):
+    """M = B S."""
+    lengths = [jnp.exp(row) for row in log_scales]
+    return [[row[j] * lengths[j] for j in range(3)] for row in B]
+
+
+def _dot(p, q):
+    return sum(x * y for x, y in zip(p, q))
+
+
+def _cross(p, q):
+    return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
