@@ -18,8 +18,8 @@ VARIANTS = {
     "depth_only": {"condition.wall_texture": False, "condition.objects": "none"},
     "no_edge_recall": {"verify.enabled": False},
     "no_pcd_init": {"fit.init": "random"},
-    "no_depth_loss": {"fit.depth_weight": 0.0},
-    "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0},
+    "no_depth_loss": {"fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
+    "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
 }
 PRESETS = {"draft": (344, 192), "standard": (688, 384), "paper": (1376, 768)}
 

@@ -99,17 +99,19 @@ class FitSettings:
     """Initialisation and optimisation of the gaussians (paper, "Geometry-Regularized 3DGS Scene Reconstruction")."""
 
     init: str = "flat"  # flat | isotropic | random
-    spacing: float = 0.04  # metres between gaussians of the initial cloud
-    opacity: float = 0.88  # initial
-    steps: int = 240  # optimiser steps per room
-    rounds: int = 2  # rooms see their neighbours' latest gaussians this many times
+    spacing: float = 0.055  # metres between gaussians of the initial cloud
+    detail_spacing: float = 0.0275  # the same on objects and beside silhouettes
+    opacity: float = 0.9  # initial
+    steps: int = 120  # optimiser steps per room
+    rounds: int = 1  # rooms see their neighbours' latest gaussians this many times
     ssim_weight: float = 0.2
-    depth_weight: float = 0.7  # per metre
-    lr_means: float = 2e-4
-    lr_quats: float = 1e-3
-    lr_scales: float = 5e-3
-    lr_opacities: float = 5e-2
-    lr_sh: float = 2.5e-2
+    normal_weight: float = 0.3  # of the angle between the surface of the splat depth and the scaffold's; the paper has none
+    depth_weight: float = 1.5  # per metre; the paper's 0.7 leaves depth and normals a little worse (experiments/fit_defaults)
+    lr_means: float = 1.2e-3
+    lr_quats: float = 2e-2
+    lr_scales: float = 6e-2
+    lr_opacities: float = 0.2
+    lr_sh: float = 4e-2
     lr_final: float = 0.1  # learning rates decay to this share
     sh_degree: int = 0
     curve_points: int = 6  # held-out evaluations along the fit

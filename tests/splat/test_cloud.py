@@ -40,6 +40,28 @@ def test_one_point_a_cell(spacing):
     assert 0.4 * seen.prod() < area < 1.3 * seen.prod()
 
 
+def test_detail_is_gathered_in_its_own_finer_cells():
+    views = [dataclasses.replace(view, detailed=view.depth < np.median(view.depth)) for view in views_of(width=160, height=96)]
+    cloud = surface_cloud(views, 0.3, 0.1)
+    plain = [dataclasses.replace(view, detailed=None) for view in views]
+    coarse, fine = surface_cloud(plain, 0.3), surface_cloud(plain, 0.1)
+    assert set(cloud.spacings) == {0.3, 0.1} and (coarse.spacings == 0.3).all()
+    assert len(coarse.points) < len(cloud.points) < len(coarse.points) + len(fine.points)
+    assert wall_distance(cloud.points).max() < 1e-5
+    both = initial_gaussians(views, settings=FitSettings(spacing=0.3, detail_spacing=0.1), rng=np.random.default_rng(0))
+    np.testing.assert_allclose(np.exp(both.log_scales[:, 0]), 0.5 * cloud.spacings, rtol=1e-6)
+
+
+def test_the_near_side_of_a_silhouette_counts_as_detail():
+    view = views_of()[0]
+    depth = np.full_like(view.depth, 3.0)
+    depth[:, : depth.shape[1] // 2] = 1.0
+    fine = surface_cloud([dataclasses.replace(view, depth=depth, own=None)], 0.3, 0.1).spacings == 0.1
+    points = surface_cloud([dataclasses.replace(view, depth=depth, own=None)], 0.3, 0.1).points
+    z = points @ view.camera.T_cam_world[2, :3] + view.camera.T_cam_world[2, 3]
+    assert fine.any() and (z[fine] < 1.5).all() and (z[~fine] < 1.5).any()
+
+
 def test_order_of_views_changes_nothing_but_rounding_and_the_same_views_give_the_same_bytes():
     views = views_of()
     a, b, again = (surface_cloud(v, 0.3) for v in (views, views[::-1], views))

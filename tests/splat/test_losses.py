@@ -4,7 +4,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from wm.splat.losses import depth_loss, photometric_loss
+from wm.geometry.camera import camera_rays, make_camera
+from wm.splat.losses import depth_loss, normal_loss, photometric_loss
 
 photometric = jax.jit(jax.value_and_grad(lambda rgb, target, mask, w: photometric_loss(rgb, target, mask, ssim_weight=w)))
 
@@ -44,3 +45,38 @@ def test_depth_counts_metres_where_the_scaffold_is_hit():
     assert not gradient[0].any() and not gradient[:, 0].any()
     np.testing.assert_allclose(gradient[1:, 1:], -1 / 12, rtol=1e-6)
     assert float(depth_loss(scaffold, scaffold * 0, mask)) == 0
+
+
+CAMERA = make_camera(np.array([1.0, 1.2, 1.5]), np.array([3.0, 2.0, 0.3]), width=24, height=16, fov_deg=60.0)
+normals = jax.jit(jax.value_and_grad(normal_loss))
+
+
+def plane(height=0.0, tilt=0.0):
+    """Depth of the plane z = height + tilt x from CAMERA."""
+    eye, rays = np.array([1.0, 1.2, 1.5]), camera_rays(CAMERA)
+    normal = np.array([-tilt, 0.0, 1.0])
+    return jnp.asarray(((height - eye @ normal) / (rays @ normal)).reshape(16, 24), jnp.float32), normal / np.linalg.norm(normal)
+
+
+def angle_loss(depth, scaffold, mask=None):
+    mask = jnp.ones(depth.shape, bool) if mask is None else mask
+    return normals(depth, scaffold, mask, jnp.asarray(CAMERA.focal, jnp.float32), jnp.asarray(CAMERA.principal, jnp.float32))
+
+
+def test_normals_count_the_angle_between_surfaces_and_not_their_distance():
+    floor, up = plane()
+    ramp, slope = plane(tilt=0.2)
+    np.testing.assert_allclose(angle_loss(ramp, floor)[0], 1 - up @ slope, rtol=1e-3)
+    assert float(angle_loss(plane(height=-0.3)[0], floor)[0]) < 1e-5 and float(angle_loss(1.1 * floor, floor)[0]) < 1e-5
+
+
+def test_normals_have_no_say_beside_edges_where_nothing_is_hit_and_behind_the_mask():
+    floor, _ = plane()
+    ramp, _ = plane(tilt=0.2)
+    step = floor.at[:, 12:].add(0.5)
+    _, gradient = angle_loss(ramp, step)
+    # pixels 11 and 12 touch the step: what only their differences read is left out
+    assert np.isfinite(gradient).all() and np.asarray(gradient)[:, :9].any()
+    assert float(angle_loss(ramp, floor * 0)[0]) == 0 and float(angle_loss(ramp, floor, jnp.zeros((16, 24), bool))[0]) == 0
+    holes = angle_loss(ramp.at[5:9, 5:9].set(0.0), floor)
+    assert np.isfinite(holes[0]) and np.isfinite(holes[1]).all()

@@ -92,10 +92,15 @@ def test_one_surface_leaves_out_borders_edges_and_bends():
     assert not one_surface(group - 5, normal).any() and not one_surface(group[:2], normal[:2]).any()
 
 
+def share(depth_i, camera_i, depth_j, camera_j):
+    masks = shared_pixels(depth_i, camera_i, depth_j, camera_j), shared_pixels(depth_j, camera_j, depth_i, camera_i)
+    return overlap(masks[0], depth_i, masks[1], depth_j)
+
+
 def test_exact_depth_reprojects_without_error_and_a_scaled_one_by_its_scale():
     depth_i, depth_j = plane_depth(ABOVE, *FLOOR), plane_depth(BESIDE, *FLOOR)
     shared = shared_pixels(depth_i, ABOVE, depth_j, BESIDE)
-    assert shared.mean() > 0.3 and overlap(depth_i, ABOVE, depth_j, BESIDE) > 0.3
+    assert shared.mean() > 0.3 and share(depth_i, ABOVE, depth_j, BESIDE) > 0.3
     exact = reprojection_error(depth_i, ABOVE, depth_j, BESIDE, shared)
     assert exact.pixels == shared.sum()
     np.testing.assert_allclose([exact.absrel, exact.mae_norm], 0, atol=1e-9)
@@ -109,13 +114,13 @@ def test_an_occluder_and_the_other_way_round_are_not_shared():
     depth_i, depth_j = plane_depth(ABOVE, *FLOOR), plane_depth(BESIDE, *FLOOR)
     assert not shared_pixels(depth_i, ABOVE, 0.5 * depth_j, BESIDE).any()
     away = camera((-4, 0, 2), (-5.5, 0.4, 0))
-    assert overlap(depth_i, ABOVE, plane_depth(away, *FLOOR), away) == 0
+    assert share(depth_i, ABOVE, plane_depth(away, *FLOOR), away) == 0
     nothing = reprojection_error(depth_i, ABOVE, plane_depth(away, *FLOOR), away, np.ones((48, 64), bool))
     assert nothing.pixels == 0 and np.isnan(nothing.absrel)
     empty = np.zeros_like(depth_i)
-    assert overlap(empty, ABOVE, depth_j, BESIDE) == 0 and not mutual_pixels(empty, ABOVE, depth_j, BESIDE).any()
+    assert share(empty, ABOVE, depth_j, BESIDE) == 0 and not mutual_pixels(empty, ABOVE, depth_j, BESIDE).any()
 
 
 def test_overlap_with_itself_is_whole_but_for_the_rim():
     depth = plane_depth(ABOVE, *FLOOR)
-    assert overlap(depth, ABOVE, depth, dataclasses.replace(ABOVE)) > 0.85
+    assert share(depth, ABOVE, depth, dataclasses.replace(ABOVE)) > 0.85

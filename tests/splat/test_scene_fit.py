@@ -16,7 +16,7 @@ from wm.splat.cloud import initial_gaussians
 from wm.splat.scene_fit import fit_scene
 
 ROOMS = 3
-SETTINGS = FitSettings(spacing=0.6, steps=4, rounds=2, curve_points=2)
+SETTINGS = FitSettings(spacing=0.6, detail_spacing=0.6, steps=4, rounds=2, curve_points=2)
 RASTER = RasterSettings(chunk=1, block=16)
 VIEWS = [views_of(room=room, rooms=ROOMS, count=3, width=24, height=16) for room in range(ROOMS)]
 START = [initial_gaussians(views, settings=SETTINGS, rng=np.random.default_rng(0)) for views in VIEWS]

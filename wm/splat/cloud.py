@@ -2,8 +2,9 @@
 
 Every pixel that shows the room's own surface is a world point with a normal and a colour. Points are gathered in cells of the
 wanted spacing, those of differently facing surfaces apart (a corner keeps one gaussian for each of its walls), and a cell
-becomes one gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. Views are
-folded in one at a time, so memory is bounded by the room's surface.
+becomes one gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. What has
+detail, objects and the near side of every silhouette, is gathered in smaller cells: there a gaussian that reaches past the edge
+costs depth and normals most. Views are folded in one at a time, so memory is bounded by the room's surface.
 """
 
 import dataclasses
@@ -11,14 +12,21 @@ from collections.abc import Iterable
 
 import numpy as np
 from jaxtyping import Float
+from scipy.ndimage import maximum_filter
 
 from wm.geometry.camera import camera_rotation, unproject_depth
 from wm.schema import FitSettings
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
-TANGENTIAL, NORMAL = 0.6, 0.05
-"""Standard deviations along and across the surface, as shares of the spacing (measured on the prototype's furnished room)."""
+TANGENTIAL, NORMAL = 0.5, 0.05
+"""Standard deviations along and across the surface, as shares of the spacing (experiments/fit_defaults)."""
+
+BESIDE = 8 / 688
+"""Share of the image's width that counts as beside a silhouette."""
+
+DROP, RELATIVE_DROP = 0.1, 0.08
+"""How much farther, in metres and as a share of the depth, a surface must be to make a silhouette of the one before it."""
 
 RANDOM_OPACITY = 0.5
 """Initial opacity of the `random` variant, as in the prototype's figures: opaque ones in free air hide each other."""
@@ -26,7 +34,7 @@ RANDOM_OPACITY = 0.5
 SH_C0 = 0.28209479177387814
 """The constant spherical harmonic, 1 / (2 sqrt(pi)): colour = 0.5 + SH_C0 * sh_0."""
 
-_BITS = 20
+_BITS = 19
 _SHIFT = 0.381966
 """The grid of cells is shifted by this share of a cell, so that walls at round coordinates do not lie between two."""
 
@@ -38,21 +46,24 @@ class Cloud:
     points: np.ndarray  # [n, 3] float64, metres
     normals: np.ndarray  # [n, 3] float64 unit
     colors: np.ndarray  # [n, 3] float64 in [0, 1]
+    spacings: np.ndarray  # [n] float64, metres: edge of the cell that each stands for
 
 
-def surface_cloud(views: Iterable[TrainingView], spacing: float) -> Cloud:
+def surface_cloud(views: Iterable[TrainingView], spacing: float, detail_spacing: float | None = None) -> Cloud:
     """The surface of a room as oriented points about `spacing` metres apart, sorted by cell: the same views, the same bytes.
 
     Args:
         views: views of the room; only their own pixels with a scaffold depth are used. A cell whose colour no usable pixel shows
             takes the mean colour of the others.
         spacing: edge of a cell, metres.
+        detail_spacing: the same where the surface has detail (`TrainingView.detailed`, and beside silhouettes); None: nowhere.
 
     Raises:
-        ValueError: the spacing is not positive, or the surface spans more than 2^20 cells.
+        ValueError: a spacing is not positive, or the surface spans more than 2^19 cells.
     """
-    if not spacing > 0:
-        raise ValueError(f"the spacing of the initial cloud must be positive, not {spacing}")
+    edges = np.array([spacing, spacing if detail_spacing is None else detail_spacing])
+    if not (edges > 0).all():
+        raise ValueError(f"the spacing of the initial cloud must be positive, not {spacing} and {detail_spacing}")
     keys, sums = np.zeros(0, np.int64), np.zeros((0, 11))
     for view in views:
         own = view.depth > 0 if view.own is None else (view.depth > 0) & view.own
@@ -61,7 +72,8 @@ def surface_cloud(views: Iterable[TrainingView], spacing: float) -> Cloud:
         usable = view.mask[own].astype(np.float64)[:, None]
         colors = view.rgb[own] / 255.0 * usable
         rows = np.concatenate([points, normals, colors, usable, np.ones_like(usable)], axis=1)
-        keys, sums = _fold(np.concatenate([keys, _cells(points, normals, spacing)]), np.concatenate([sums, rows]))
+        fine = np.zeros(len(points), np.int64) if detail_spacing is None else _detailed(view)[own].astype(np.int64)
+        keys, sums = _fold(np.concatenate([keys, _cells(points, normals, edges[fine], fine)]), np.concatenate([sums, rows]))
     seen = sums[:, 9:10]
     fallback = sums[:, 6:9].sum(0) / max(seen.sum(), 1.0)
     length = np.linalg.norm(sums[:, 3:6], axis=1, keepdims=True)
@@ -69,6 +81,7 @@ def surface_cloud(views: Iterable[TrainingView], spacing: float) -> Cloud:
         points=sums[:, :3] / sums[:, 10:11],
         normals=np.where(length > 0, sums[:, 3:6] / np.where(length > 0, length, 1), [0.0, 0.0, 1.0]),
         colors=np.where(seen > 0, sums[:, 6:9] / np.where(seen > 0, seen, 1), fallback),
+        spacings=edges[keys >> 3 * _BITS + 3],
     )
 
 
@@ -78,18 +91,18 @@ def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, r
     Args:
         views: the room's views.
         settings: `init` is "flat" (discs in the surface), "isotropic" (balls on it) or "random" (as many balls anywhere in the
-            room's bounding box, of random colours); `spacing`, `opacity` and `sh_degree` are read too.
+            room's bounding box, of random colours); the spacings, `opacity` and `sh_degree` are read too.
         rng: read by "random" only.
 
     Source: paper, "Geometry-Regularized 3DGS Scene Reconstruction"; "flat" is ours.
     """
-    cloud = surface_cloud(views, settings.spacing)
+    cloud = surface_cloud(views, settings.spacing, settings.detail_spacing)
     n = len(cloud.points)
-    size = np.full((n, 3), settings.spacing * TANGENTIAL)
+    size = np.repeat(cloud.spacings[:, None] * TANGENTIAL, 3, axis=1)
     points, colors, quats, opacity = cloud.points, cloud.colors, np.tile([1.0, 0.0, 0.0, 0.0], (n, 1)), settings.opacity
     match settings.init:
         case "flat":
-            size[:, 2] = settings.spacing * NORMAL
+            size[:, 2] = cloud.spacings * NORMAL
             quats = quats_from_normals(cloud.normals)
         case "isotropic":
             pass
@@ -146,18 +159,26 @@ def _nearer_difference(points, depth, axis: int):
     return np.where(np.isfinite(np.minimum(back, ahead))[..., None], nearer, 0.0)
 
 
-def _cells(points, normals, spacing: float):
-    """One integer per point: its cell and which of the six axis directions its normal is nearest to."""
-    index = np.floor(points / spacing + _SHIFT).astype(np.int64) + (1 << (_BITS - 1))
+def _detailed(view: TrainingView) -> np.ndarray:
+    """[h, w] bool: pixels of what has detail, and those of which something much farther away is near on the image."""
+    reach = max(round(BESIDE * view.camera.width), 1)
+    farthest = maximum_filter(view.depth, size=2 * reach + 1)
+    beside = farthest > view.depth * (1 + RELATIVE_DROP) + DROP
+    return beside if view.detailed is None else beside | view.detailed
+
+
+def _cells(points, normals, spacing, fine):
+    """One integer per point: is its cell fine, which cell, and to which of the six axis directions its normal is nearest."""
+    index = np.floor(points / spacing[:, None] + _SHIFT).astype(np.int64) + (1 << (_BITS - 1))
     if index.size and (index.min() < 0 or index.max() >= 1 << _BITS):
         raise ValueError(
-            f"the surface reaches {np.abs(points).max():.3g} m from the origin: with {spacing} m spacing at most "
-            f"{spacing * 2 ** (_BITS - 1):.3g} m are covered"
+            f"the surface reaches {np.abs(points).max():.3g} m from the origin: with {spacing.min()} m spacing at most "
+            f"{spacing.min() * 2 ** (_BITS - 1):.3g} m are covered"
         )
     axis = np.abs(normals).argmax(axis=1)
     facing = 2 * axis + (np.take_along_axis(normals, axis[:, None], axis=1)[:, 0] > 0)
     x, y, z = index.T
-    return ((x << _BITS | y) << _BITS | z) << 3 | facing
+    return (((fine << _BITS | x) << _BITS | y) << _BITS | z) << 3 | facing
 
 
 def _fold(keys, rows):

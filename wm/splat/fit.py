@@ -60,7 +60,7 @@ def fit(
     """
     if not views:
         raise ValueError("a fit needs at least one view")
-    raster = dataclasses.replace(raster, depth=settings.depth_weight > 0)
+    raster = dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0)
     device = device or jax.devices()[0]
     started = time.perf_counter()
     behind = [] if frozen is None else [jax.device_put(pad_gaussians(frozen, len(frozen.opacity_logits)), device)]

@@ -4,6 +4,8 @@ They do not change while the fit runs, so they are projected once per view, and 
 dropped: a room behind a wall costs nothing, and what is left is a small set of ellipses, already on the image plane.
 """
 
+import math
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -18,15 +20,24 @@ REACH = 8
 """Pixels around its centre that a gaussian may cover before it is kept whatever stands in front of it."""
 
 
-def visible_columns(projected: Projected, depth: np.ndarray) -> Projected:
-    """The columns of `projected` (NumPy) that a view can see whose scaffold has this depth [h, w] (0: nothing there)."""
-    h, w = depth.shape
+def visible_columns(projected: Projected, depth: np.ndarray, size: tuple[int, int] | None = None) -> Projected:
+    """The columns of `projected` (NumPy) that a view can see.
+
+    Args:
+        projected: gaussians on an image.
+        depth: [h, w] the scaffold's depth there, metres (0: nothing there); a coarser image than that of the view will do.
+        size: (height, width) of the view's image; None: that of `depth`.
+    """
+    h, w = size or depth.shape
     mean, extent, z, opacity = (np.asarray(x) for x in (projected.mean2d, projected.extent, projected.depth, projected.opacity))
     limits = np.array([[w], [h]])
     shown = np.flatnonzero((opacity > 0) & ((mean + extent > 0) & (mean - extent < limits)).all(axis=0))
     if len(shown):
-        farthest = maximum_filter(np.where(depth > 0, depth, np.inf), size=2 * REACH + 1)
-        u, v = np.clip(np.floor(mean[:, shown]).astype(np.int64), 0, limits - 1)
+        scale = np.array([[depth.shape[1] / w], [depth.shape[0] / h]])
+        reach = [math.ceil(REACH * s) for s in scale[::-1, 0]]
+        farthest = maximum_filter(np.where(depth > 0, depth, np.inf), size=[2 * r + 1 for r in reach])
+        last = np.array([[depth.shape[1] - 1], [depth.shape[0] - 1]])
+        u, v = np.clip(np.floor(mean[:, shown] * scale).astype(np.int64), 0, last)
         large = (extent[:, shown] > REACH).any(axis=0)
         shown = shown[large | (z[shown] < farthest[v, u] + MARGIN)]
     return jax.tree.map(lambda x: np.asarray(x)[..., shown], projected)

@@ -46,14 +46,19 @@ def shared_pixels(
 
 
 def overlap(
-    depth_i: Float[np.ndarray, "h w"], camera_i: Camera, depth_j: Float[np.ndarray, "hj wj"], camera_j: Camera
+    shared_i: Bool[np.ndarray, "h w"],
+    depth_i: Float[np.ndarray, "h w"],
+    shared_j: Bool[np.ndarray, "hj wj"],
+    depth_j: Float[np.ndarray, "hj wj"],
 ) -> float:
-    """Share of the surface that two views have in common, 0..1: the smaller of the shares of either's scaffold pixels."""
-    shares = []
-    for first, second in (((depth_i, camera_i), (depth_j, camera_j)), ((depth_j, camera_j), (depth_i, camera_i))):
-        hit = int((first[0] > 0).sum())
-        shares.append(int(shared_pixels(*first, *second).sum()) / hit if hit else 0.0)
-    return min(shares)
+    """Share of the surface that two views have in common, 0..1: the smaller of the shares of either's scaffold pixels.
+
+    Args:
+        shared_i, shared_j: what `shared_pixels` said of i in j, and of j in i.
+        depth_i, depth_j: the scaffold's.
+    """
+    shares = [shared.sum() / max((depth > 0).sum(), 1) for shared, depth in ((shared_i, depth_i), (shared_j, depth_j))]
+    return float(min(shares))
 
 
 def mutual_pixels(

@@ -114,7 +114,8 @@ class RoomFit:
         camera = seen.target.camera
         projected = join_columns(host(project_view(state.gaussians, camera, raster=self.raster)), seen.frozen)
         plan = plan_with(projected, camera.width, camera.height, self.raster, self.capacity)
-        state, terms = train_step(state, seen.target, seen.frozen, plan, rates, raster=self.raster)
+        normals = self.settings.normal_weight > 0
+        state, terms = train_step(state, seen.target, seen.frozen, plan, rates, raster=self.raster, normals=normals)
         return state, jax.device_get(terms)
 
     def _point(self, state: TrainState, step: int, since: list[StepTerms]) -> FitPoint:

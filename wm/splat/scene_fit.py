@@ -77,7 +77,7 @@ def fit_scene(
         views=views,
         heldout=heldout,
         settings=settings,
-        raster=dataclasses.replace(raster, depth=settings.depth_weight > 0),
+        raster=dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0),
         seed=seed_of(key),
         report=_Report(len(gaussians) * settings.steps, progress),
     )

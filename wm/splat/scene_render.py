@@ -39,13 +39,15 @@ class SceneRenderer:
         Args:
           camera: any camera.
           rooms: indices of the rooms it may see; the others are not projected.
-          scaffold_depth: [h, w] metres; gaussians well behind it are left out. They would show only through surfaces.
+          scaffold_depth: [h, w] metres, as large as the image or coarser; gaussians well behind it are left out. They would show
+            only through surfaces.
         """
         camera = jax.tree.map(lambda x: np.asarray(x, np.float32), camera)
-        depth = np.zeros((camera.height, camera.width), np.float32) if scaffold_depth is None else scaffold_depth
+        depth = np.zeros((1, 1), np.float32) if scaffold_depth is None else scaffold_depth
+        size = (camera.height, camera.width)
         on_device = jax.device_put(camera, self._device)
         seen = [
-            visible_columns(host(project_view(self._rooms[room], on_device, raster=self._raster)), depth)
+            visible_columns(host(project_view(self._rooms[room], on_device, raster=self._raster)), depth, size)
             for room in rooms
             if self._rooms[room] is not None
         ]

@@ -16,7 +16,7 @@ import optax
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.composite import rasterize
 from wm.splat.frozen import join_columns
-from wm.splat.losses import depth_loss, photometric_terms
+from wm.splat.losses import depth_loss, normal_loss, photometric_terms
 from wm.splat.project import Projected, project
 from wm.splat.tiles import TilePlan
 from wm.types import Camera, Gaussians, Render
@@ -52,6 +52,7 @@ class Rates:
     learning: Any  # Gaussians of floats
     ssim: Any
     depth: Any
+    normal: Any
 
 
 @jax.tree_util.register_dataclass
@@ -63,6 +64,7 @@ class StepTerms:
     l1: Any
     dissimilarity: Any  # mean 1 - SSIM
     depth: Any  # metres
+    normal: Any  # mean 1 - cosine
     finite: Any
 
 
@@ -87,7 +89,7 @@ def rates_at(settings: FitSettings, step: int, steps: int) -> Rates:
         opacity_logits=settings.lr_opacities * decay,
         sh=settings.lr_sh * decay,
     )
-    return Rates(learning=learning, ssim=settings.ssim_weight, depth=settings.depth_weight)
+    return Rates(learning=learning, ssim=settings.ssim_weight, depth=settings.depth_weight, normal=settings.normal_weight)
 
 
 @functools.partial(jax.jit, static_argnames="raster")
@@ -102,9 +104,16 @@ def rasterize_view(projected: Projected, plan: TilePlan, *, width: int, height: 
     return rasterize(projected, plan, width, height, raster)
 
 
-@functools.partial(jax.jit, static_argnames="raster", donate_argnums=0)
+@functools.partial(jax.jit, static_argnames=("raster", "normals"), donate_argnums=0)
 def train_step(
-    state: TrainState, target: Target, frozen: Projected | None, plan: TilePlan, rates: Rates, *, raster: RasterSettings
+    state: TrainState,
+    target: Target,
+    frozen: Projected | None,
+    plan: TilePlan,
+    rates: Rates,
+    *,
+    raster: RasterSettings,
+    normals: bool,
 ) -> tuple[TrainState, StepTerms]:
     """The state after one step toward one view, and the loss before it; the state's buffers are used up.
 
@@ -115,6 +124,7 @@ def train_step(
         plan: of the projections of the state's gaussians and of the frozen ones, in that order.
         rates: of this step.
         raster: without `depth` the loss has no depth term.
+        normals: whether it has a term of normals, which needs depth.
     """
 
     def objective(gaussians: Gaussians):
@@ -123,12 +133,17 @@ def train_step(
         render = rasterize(projected, plan, camera.width, camera.height, raster)
         l1, dissimilarity = photometric_terms(render.rgb, target.rgb.astype(jnp.float32) / 255, target.mask)
         depth = depth_loss(render.depth, target.depth, target.mask) if raster.depth else jnp.float32(0)
-        return (1 - rates.ssim) * l1 + rates.ssim * dissimilarity + rates.depth * depth, (l1, dissimilarity, depth)
+        normal = jnp.float32(0)
+        if raster.depth and normals:
+            normal = normal_loss(render.depth, target.depth, target.mask, camera.focal, camera.principal)
+        loss = (1 - rates.ssim) * l1 + rates.ssim * dissimilarity + rates.depth * depth + rates.normal * normal
+        return loss, (l1, dissimilarity, depth, normal)
 
-    (loss, (l1, dissimilarity, depth)), gradient = jax.value_and_grad(objective, has_aux=True)(state.gaussians)
+    (loss, (l1, dissimilarity, depth, normal)), gradient = jax.value_and_grad(objective, has_aux=True)(state.gaussians)
     finite = functools.reduce(jnp.logical_and, [jnp.isfinite(leaf).all() for leaf in jax.tree.leaves((loss, gradient))])
     updates, moments = _adam.update(gradient, state.moments)
     moved = jax.tree.map(lambda x, u, rate: x - rate * u, state.gaussians, updates, rates.learning)
     moved = TrainState(gaussians=moved, moments=moments)
     kept = jax.tree.map(lambda new, old: jnp.where(finite, new, old), moved, state)
-    return kept, StepTerms(loss=loss, l1=l1, dissimilarity=dissimilarity, depth=depth, finite=finite)
+    terms = StepTerms(loss=loss, l1=l1, dissimilarity=dissimilarity, depth=depth, normal=normal, finite=finite)
+    return kept, terms

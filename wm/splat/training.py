@@ -21,11 +21,12 @@ class TrainingView:
     room: int  # the room it stands in
     own: np.ndarray | None = None  # [h, w] bool: pixels that show a surface of `room`; None: all of them
     normal: np.ndarray | None = None  # [h, w, 3] float32 world normal of the scaffold; None: taken from the depth
+    detailed: np.ndarray | None = None  # [h, w] bool: pixels of surfaces with detail, such as objects; None: of none
     sees: tuple[int, ...] = ()  # other rooms that it may see into, through doors
 
     def __post_init__(self) -> None:
         size = (self.camera.height, self.camera.width)
-        shapes = {"rgb": (*size, 3), "depth": size, "mask": size, "own": size, "normal": (*size, 3)}
+        shapes = {"rgb": (*size, 3), "depth": size, "mask": size, "own": size, "detailed": size, "normal": (*size, 3)}
         for name, shape in shapes.items():
             array = getattr(self, name)
             if array is not None and array.shape != shape:

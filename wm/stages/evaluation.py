@@ -11,6 +11,7 @@ import numpy as np
 from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, coverage, navigability, visible_rooms
+from wm.geometry.camera import scale_camera
 from wm.host import cores
 from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
 from wm.splat.reprojection import overlap, reprojection_error, shared_pixels
@@ -26,6 +27,7 @@ from wm.types import GBuffer, Render, SurfaceKind, View
 
 _ssim = jax.jit(ssim)
 
+GLIMPSE = 1 / 4
 EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
 
 
@@ -53,12 +55,17 @@ def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, h
 def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
     """A view of the splats and of the scaffold."""
     gbuffer = cast(scene.rays, view.camera)
-    sees = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
-    return Seen(
-        view=view,
-        render=renderer.render(view.camera, [int(room) for room in sees], gbuffer.depth),
-        gbuffer=gbuffer,
-    )
+    return Seen(view=view, render=renderer.render(view.camera, _rooms_seen(scene, view), gbuffer.depth), gbuffer=gbuffer)
+
+
+def glimpse(scene: Scene, renderer: SceneRenderer, view: View) -> Render:
+    """A view of the splats alone; what stands in the way is asked of the scaffold at a quarter of the resolution."""
+    depth = cast(scene.rays, scale_camera(view.camera, GLIMPSE)).depth
+    return renderer.render(view.camera, _rooms_seen(scene, view), depth)
+
+
+def _rooms_seen(scene: Scene, view: View) -> list[int]:
+    return [int(room) for room in np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])]
 
 
 def look_all(scene: Scene, renderer: SceneRenderer, views: Sequence[View]) -> Iterator[Seen]:
@@ -121,17 +128,23 @@ def _surface_of(scene: Scene, gbuffer: GBuffer) -> np.ndarray:
     return np.where(gbuffer.hit, group[gbuffer.face], -1).astype(np.int64)
 
 
-def _reprojection(seen: Sequence[Seen], min_overlap: float) -> list[dict[str, float]]:
+def _reprojection(seen: Sequence[Seen], min_overlap: float) -> Iterator[dict[str, float]]:
     """Both ways of every pair of a room's views that share enough surface."""
-    rows = []
-    for a, b in itertools.combinations(seen, 2):
-        if overlap(a.gbuffer.depth, a.view.camera, b.gbuffer.depth, b.view.camera) < min_overlap:
-            continue
-        for i, j in ((a, b), (b, a)):
-            mask = shared_pixels(i.gbuffer.depth, i.view.camera, j.gbuffer.depth, j.view.camera)
-            error = reprojection_error(i.render.depth, i.view.camera, j.render.depth, j.view.camera, mask)
-            rows.append({"reproj_mae_norm": error.mae_norm, "reproj_absrel": error.absrel})
-    return rows
+    pairs = itertools.combinations(seen, 2)
+    for rows in in_order(lambda _, pair: _pair(*pair, min_overlap), pairs, range(cores())):
+        yield from rows
+
+
+def _pair(a: Seen, b: Seen, min_overlap: float) -> list[dict[str, float]]:
+    ways = ((a, b), (b, a))
+    shared = [shared_pixels(i.gbuffer.depth, i.view.camera, j.gbuffer.depth, j.view.camera) for i, j in ways]
+    if overlap(shared[0], a.gbuffer.depth, shared[1], b.gbuffer.depth) < min_overlap:
+        return []
+    errors = [
+        reprojection_error(i.render.depth, i.view.camera, j.render.depth, j.view.camera, mask)
+        for (i, j), mask in zip(ways, shared)
+    ]
+    return [{"reproj_mae_norm": error.mae_norm, "reproj_absrel": error.absrel} for error in errors]
 
 
 def _mean(values: Sequence[float]) -> float | None:

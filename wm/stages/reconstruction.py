@@ -2,7 +2,7 @@
 
 import dataclasses
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import jax
 import numpy as np
@@ -18,9 +18,10 @@ from wm.splat.scene_render import SceneRenderer
 from wm.splat.training import TrainingView
 from wm.stages.heldout import HeldOut
 from wm.stages.job import Job
+from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.scene import Scene
-from wm.types import Gaussians, GBuffer, View
+from wm.types import OUTSIDE, Gaussians, GBuffer, View
 
 SPLATS, BY_ROOM, HISTORY = "splats.ply", "stages/splats.npz", "stages/history.json"
 CURVE_VIEWS = 2
@@ -68,6 +69,7 @@ def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, g
         room=view.room,
         own=gbuffer.hit & (mesh.face_room[gbuffer.face] == view.room),
         normal=gbuffer.normal,
+        detailed=gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE),
         sees=tuple(int(room) for room in sees),
     )
 
@@ -76,10 +78,10 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) ->
     config, folder = job.config, job.folder
     rooms = range(len(scene.plan.rooms))
 
-    def views(room: int) -> list[TrainingView]:
-        members = [view for view in scene.views if view.room == room]
-        stored = ((view, painted.view(view)) for view in members)
-        return [training_view(scene, view, p.rgb, p.mask, cast(scene.rays, view.camera)) for view, p in stored]
+    def views(room: int) -> Iterator[TrainingView]:
+        for view in (view for view in scene.views if view.room == room):
+            stored = painted.view(view)
+            yield training_view(scene, view, stored.rgb, stored.mask, cast(scene.rays, view.camera))
 
     def heldout(room: int) -> list[TrainingView]:
         if not truths.known or config.fit.curve_points == 0:
@@ -104,10 +106,12 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) ->
 
     folder.drop_others("fit/", {name(r, room) for r in range(config.fit.rounds) for room in rooms})
     seeds = np.random.SeedSequence([config.seed, 1])
-    start = [
-        initial_gaussians(views(room), settings=config.fit, rng=np.random.default_rng(child))
-        for room, child in zip(rooms, seeds.spawn(len(rooms)))
-    ]
+
+    def initial(_: int, room: int) -> Gaussians:
+        return initial_gaussians(views(room), settings=config.fit, rng=np.random.default_rng(children[room]))
+
+    children = seeds.spawn(len(rooms))
+    start = list(in_order(initial, rooms, range(cores())))
     with job.bar("reconstruct", len(rooms) * config.fit.steps) as bar:
 
         def progress(done: int, total: int, info: dict) -> None:
@@ -117,7 +121,7 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) ->
 
         result = fit_scene(
             start,
-            views,
+            lambda room: list(views(room)),
             settings=config.fit,
             raster=config.raster,
             key=jax.random.key(config.seed),

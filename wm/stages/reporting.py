@@ -8,9 +8,11 @@ import numpy as np
 from wm.artifacts import json_text
 from wm.codecs import to_bytes
 from wm.geometry import walkthrough
+from wm.host import cores
 from wm.report import ReportData, SheetRow, render_page, write_video
-from wm.stages.evaluation import METRICS, Seen, look_all
+from wm.stages.evaluation import METRICS, Seen, glimpse, look_all
 from wm.stages.job import Job
+from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.reconstruction import Reconstruction
 from wm.stages.scene import Scene
@@ -63,8 +65,8 @@ def _video(job: Job, scene: Scene, result: Reconstruction) -> bytes:
 
         def frames() -> Iterator[np.ndarray]:
             with job.bar("video", len(views)) as bar:
-                for seen in look_all(scene, result.renderer, views):
-                    yield to_bytes(seen.render.rgb)
+                for render in in_order(lambda _, view: glimpse(scene, result.renderer, view), views, range(cores())):
+                    yield to_bytes(render.rgb)
                     bar.update()
 
         job.folder.save("video", key, {VIDEO: lambda path: write_video(path, frames(), fps=config.report.fps)})

@@ -6,6 +6,8 @@ L is weighed by clip(L / footprint - 1, 0, 1), a line is integrated over the foo
 octaves; Quilez, "Filtering procedural textures", for the line integral).
 """
 
+from collections.abc import Callable
+
 import numpy as np
 from jaxtyping import Float, Int, UInt32
 
@@ -13,19 +15,21 @@ Scalar = float | np.floating
 F32 = np.float32
 GAIN = F32(1.6)
 """Brings gradient noise, whose extremes are rare, to a standard deviation of about 0.35."""
+PART = 1 << 12
+_PRIMES = (0x9E3779B1, 0x85EBCA77, 0x27D4EB2F)
 
 
 def hash_cells(
     x: Int[np.ndarray, "..."], y: Int[np.ndarray, "..."], z: Int[np.ndarray, "..."] | int, seed: int
 ) -> UInt32[np.ndarray, "..."]:
     """A well mixed 32-bit hash of integer cells (Source: Ellis, "hash prospector", lowbias32)."""
-    offset = (int(z) * 0x27D4EB2F + seed * 0x165667B1) & 0xFFFFFFFF if isinstance(z, int) else None
-    h = x.astype(np.uint32) * np.uint32(0x9E3779B1)
-    h = h + y.astype(np.uint32) * np.uint32(0x85EBCA77)
-    if offset is None:
-        h = h + np.asarray(z).astype(np.uint32) * np.uint32(0x27D4EB2F)
-        offset = (seed * 0x165667B1) & 0xFFFFFFFF
-    h += np.uint32(offset)
+    offset = np.uint32((seed * 0x165667B1) & 0xFFFFFFFF)
+    parts = (np.asarray(c).astype(np.uint32) * np.uint32(prime) for c, prime in zip((x, y, z), _PRIMES))
+    return _mixed(np.asarray(sum(parts, start=offset)))
+
+
+def _mixed(h: UInt32[np.ndarray, "..."]) -> UInt32[np.ndarray, "..."]:
+    """h with every bit depending on all; h itself is used up."""
     h ^= h >> np.uint32(16)
     h *= np.uint32(0x7FEB352D)
     h ^= h >> np.uint32(15)
@@ -41,47 +45,46 @@ def random_cells(x: Int[np.ndarray, "..."], y: Int[np.ndarray, "..."], *, seed: 
 
 def noise2(x: Float[np.ndarray, "..."], y: Float[np.ndarray, "..."], *, seed: int) -> Float[np.ndarray, "..."]:
     """Gradient noise of wavelength 1 in about [-1, 1], zero on average (Source: Perlin 2002, quintic fade)."""
-    x0, y0 = np.floor(x), np.floor(y)
-    fx, fy = (x - x0).astype(F32), (y - y0).astype(F32)
-    ix, iy = x0.astype(np.int32), y0.astype(np.int32)
-    sx, sy = _fade(fx), _fade(fy)
-
-    def corner(dx: int, dy: int) -> np.ndarray:
-        h = hash_cells(ix + np.int32(dx), iy + np.int32(dy), 0, seed)
-        return _component(h, 0) * (fx - F32(dx)) + _component(h, 16) * (fy - F32(dy))
-
-    low = corner(0, 0)
-    low += sx * (corner(1, 0) - low)
-    high = corner(0, 1)
-    high += sx * (corner(1, 1) - high)
-    return (low + sy * (high - low)) * GAIN
+    return _in_parts(_noise, (x, y), seed)
 
 
 def noise3(
     x: Float[np.ndarray, "..."], y: Float[np.ndarray, "..."], z: Float[np.ndarray, "..."], *, seed: int
 ) -> Float[np.ndarray, "..."]:
     """`noise2` in three dimensions."""
-    x0, y0, z0 = np.floor(x), np.floor(y), np.floor(z)
-    fx, fy, fz = (x - x0).astype(F32), (y - y0).astype(F32), (z - z0).astype(F32)
-    ix, iy, iz = x0.astype(np.int32), y0.astype(np.int32), z0.astype(np.int32)
-    sx, sy, sz = _fade(fx), _fade(fy), _fade(fz)
+    return _in_parts(_noise, (x, y, z), seed)
 
-    def corner(dx: int, dy: int, dz: int) -> np.ndarray:
-        h = hash_cells(ix + np.int32(dx), iy + np.int32(dy), iz + np.int32(dz), seed)
-        value = _component(h, 0, 10) * (fx - F32(dx))
-        value += _component(h, 10, 10) * (fy - F32(dy))
-        value += _component(h, 20, 10) * (fz - F32(dz))
-        return value
 
-    def slab(dz: int) -> np.ndarray:
-        low = corner(0, 0, dz)
-        low += sx * (corner(1, 0, dz) - low)
-        high = corner(0, 1, dz)
-        high += sx * (corner(1, 1, dz) - high)
-        return low + sy * (high - low)
+def _in_parts(f: Callable, coordinates: tuple[np.ndarray, ...], seed: int) -> np.ndarray:
+    """f(coordinates, seed) on PART points at a time, so that what all corners of a cell need together stays in the cache."""
+    arrays = np.broadcast_arrays(*coordinates)
+    flat = [array.reshape(-1) for array in arrays]
+    parts = [f([array[i : i + PART] for array in flat], seed) for i in range(0, max(len(flat[0]), 1), PART)]
+    return (parts[0] if len(parts) == 1 else np.concatenate(parts)).reshape(arrays[0].shape)
 
-    near = slab(0)
-    return (near + sz * (slab(1) - near)) * GAIN
+
+def _noise(coordinates: list[np.ndarray], seed: int) -> np.ndarray:
+    """Gradient noise at n points: the corners of their cells, 2 x 2 or 2 x 2 x 2, are leading axes of every array here."""
+    dimensions = len(coordinates)
+    bits = 16 if dimensions == 2 else 10
+    h, offsets, fades = np.asarray((seed * 0x165667B1) & 0xFFFFFFFF, np.uint32), [], []
+    for axis, x in enumerate(coordinates):
+        whole = np.floor(x)
+        f = (x - whole).astype(F32)
+        fades.append(_fade(f))
+        shape = [1] * dimensions + [-1]
+        shape[axis] = 2
+        offsets.append(np.stack([f, f - F32(1)]).reshape(shape))
+        prime = np.uint32(_PRIMES[axis])
+        first = whole.astype(np.int32).astype(np.uint32) * prime
+        h = np.asarray(h + np.stack([first, first + prime]).reshape(shape))
+    h = _mixed(h)
+    value = _component(h, 0, bits) * offsets[0]
+    for axis in range(1, dimensions):
+        value += _component(h, axis * bits, bits) * offsets[axis]
+    for fade in fades:
+        value = value[0] + fade * (value[1] - value[0])
+    return value * GAIN
 
 
 def fbm(
@@ -143,9 +146,12 @@ def _fade(t: np.ndarray) -> np.ndarray:
     return t * t * t * (t * (t * F32(6) - F32(15)) + F32(10))
 
 
-def _component(h: np.ndarray, shift: int, bits: int = 16) -> np.ndarray:
+def _component(h: np.ndarray, shift: int, bits: int) -> np.ndarray:
     mask = (1 << bits) - 1
-    return ((h >> np.uint32(shift)) & np.uint32(mask)).astype(F32) * F32(2.0 / mask) - F32(1)
+    value = ((h >> np.uint32(shift)) & np.uint32(mask)).astype(F32)
+    value *= F32(2.0 / mask)
+    value -= F32(1)
+    return value
 
 
 def _pulse_integral(t: np.ndarray, share: np.floating) -> np.ndarray:
