@@ -21,6 +21,10 @@ DEPTH_UNIT = 1e-3
 _OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
+FAST = 1
+"""zlib's level for images: a third of the time of its usual 6, files a tenth larger."""
+
+
 def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
     """An image in [0, 1] as 8 bits, clipped and rounded; 8-bit images as they are."""
     return rgb if rgb.dtype == np.uint8 else np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
@@ -28,7 +32,7 @@ def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
 
 def encode_png(rgb: UInt8[np.ndarray, "h w 3"]) -> bytes:
     buffer = io.BytesIO()
-    Image.fromarray(rgb).save(buffer, format="PNG", compress_level=4)
+    Image.fromarray(rgb).save(buffer, format="PNG", compress_level=FAST)
     return buffer.getvalue()
 
 
@@ -54,7 +58,7 @@ def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:
     """A 16-bit PNG of z-depth in steps of DEPTH_UNIT; 0 stays 0, what lies beyond 65.5 m is clipped."""
     steps = np.clip(np.round(depth / DEPTH_UNIT), 0, np.iinfo(np.uint16).max).astype(np.uint16)
     buffer = io.BytesIO()
-    Image.fromarray(steps).save(buffer, format="PNG", compress_level=4)
+    Image.fromarray(steps).save(buffer, format="PNG", compress_level=FAST)
     return buffer.getvalue()
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from wm.geometry.camera import camera_center, camera_rays, make_camera
 from wm.splat.metrics import depth_error, normal_error, normals_from_depth, one_surface, psnr
-from wm.splat.reprojection import mutual_pixels, overlap, reprojection_error, shared_pixels
+from wm.splat.reprojection import every, mutual_pixels, overlap, reprojection_error, shared_pixels
 
 
 def camera(eye, target, width=64, height=48):
@@ -108,6 +108,13 @@ def test_exact_depth_reprojects_without_error_and_a_scaled_one_by_its_scale():
     np.testing.assert_allclose(error.absrel, 0.1 / 1.1, rtol=1e-6)
     assert mutual_pixels(depth_i, ABOVE, depth_j, BESIDE)[shared].all()
     assert mutual_pixels(depth_i, ABOVE, 1.5 * depth_j, BESIDE).sum() < 0.5 * shared.sum()
+
+
+@pytest.mark.parametrize("step", [1, 2, 3])
+def test_every_few_pixels_are_the_same_rays(step):
+    depth = plane_depth(ABOVE, *FLOOR)
+    some, camera_of_some = every(step, depth, ABOVE)
+    np.testing.assert_allclose(plane_depth(camera_of_some, *FLOOR), some, rtol=1e-9)
 
 
 def test_an_occluder_and_the_other_way_round_are_not_shared():

@@ -37,6 +37,15 @@ class _Moved:
     uv: np.ndarray  # [h, w, 2] where they fall, pixels
 
 
+def every(step: int, depth: Float[np.ndarray, "h w"], camera: Camera) -> tuple[Float[np.ndarray, "hs ws"], Camera]:
+    """Every `step`-th row and column of a view: the same rays, fewer of them."""
+    first = step // 2
+    kept = depth[first::step, first::step]
+    principal = (np.asarray(camera.principal, np.float64) - (first + 0.5)) / step + 0.5
+    focal = np.asarray(camera.focal, np.float64) / step
+    return kept, dataclasses.replace(camera, focal=focal, principal=principal, width=kept.shape[1], height=kept.shape[0])
+
+
 def shared_pixels(
     depth_i: Float[np.ndarray, "h w"], camera_i: Camera, depth_j: Float[np.ndarray, "hj wj"], camera_j: Camera
 ) -> Bool[np.ndarray, "h w"]:

@@ -4,9 +4,10 @@ Tiers of work: per fit (views to the device, padding), per step (projection, pla
 steps (held-out renders). The plan of a step is made from the parameters it is used with, so nothing here depends on timing.
 """
 
+import contextlib
 import dataclasses
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import jax
@@ -55,6 +56,8 @@ class Capacity:
     def __init__(self) -> None:
         self._entries: int | None = None
         self._lock = threading.Lock()
+        self._compiled: set[tuple[int, ...]] = set()
+        self._compiling = threading.Lock()
 
     @property
     def entries(self) -> int | None:
@@ -63,6 +66,16 @@ class Capacity:
     def grow(self, entries: int) -> None:
         with self._lock:
             self._entries = max(self._entries or 0, entries)
+
+    @contextlib.contextmanager
+    def compiled(self, *shape: int) -> Iterator[None]:
+        """Around a step of a shape: the first of its kind is alone, so that threads do not compile the same step side by side."""
+        if shape in self._compiled:
+            yield
+            return
+        with self._compiling:
+            yield
+            self._compiled.add(shape)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -115,7 +128,8 @@ class RoomFit:
         projected = join_columns(host(project_view(state.gaussians, camera, raster=self.raster)), seen.frozen)
         plan = plan_with(projected, camera.width, camera.height, self.raster, self.capacity)
         normals = self.settings.normal_weight > 0
-        state, terms = train_step(state, seen.target, seen.frozen, plan, rates, raster=self.raster, normals=normals)
+        with self.capacity.compiled(camera.width, camera.height, projected.opacity.shape[-1], len(plan.ids)):
+            state, terms = train_step(state, seen.target, seen.frozen, plan, rates, raster=self.raster, normals=normals)
         return state, jax.device_get(terms)
 
     def _point(self, state: TrainState, step: int, since: list[StepTerms]) -> FitPoint:

@@ -23,11 +23,9 @@ from wm.splat.room_fit import Capacity, Device, FitPoint, RoomFit, pad_gaussians
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
-RUNG = 4
-"""Padded sizes are the largest room's count over powers of this: a room pays at most four times its size, one rung is usual."""
-
-FROZEN_BASE = 16384
-"""Columns that every view of a scene of several rooms has for its neighbours; more in steps of RUNG."""
+RUNG = 8
+"""Padded sizes are the largest room's count over powers of this. One rung is usual: compiling a step takes as long as fifty of
+them, and what padding adds to a step is little."""
 
 RoomViews = Callable[[int], Sequence[TrainingView]]
 Arrays = Mapping[str, np.ndarray]
@@ -185,12 +183,12 @@ class _Scene:
         return [[on_device[other] for other in sorted(set(view.sees)) if other in on_device] for view in views]
 
     def _columns(self, most: int) -> int:
-        """Columns for neighbours: none in a scene of one room."""
+        """Columns for neighbours, the same for all rooms if they suffice: none in a scene of one room."""
         if len(self.states) == 1:
             return 0
-        columns = FROZEN_BASE
+        columns = max(self.largest, 1)
         while columns < most:
-            columns *= RUNG
+            columns *= 2
         return columns
 
     def _count(self, room: int) -> int:

