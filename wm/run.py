@@ -10,6 +10,7 @@ failed, 130 after Ctrl-C. The only module that imports hydra.
 import difflib
 import errno
 import importlib
+import logging
 import os
 import sys
 from collections.abc import Iterator, Sequence
@@ -39,6 +40,7 @@ CONF = next(folder for folder in (_PACKAGE.parent / "conf", _PACKAGE / "conf") i
 def main() -> None:
     """The command line. Exits with 0, FAILED, BAD_INPUT or INTERRUPTED."""
     os.environ["HYDRA_FULL_ERROR"] = "1"  # Hydra then raises to here instead of printing its own report
+    logging.getLogger("jax").setLevel(logging.WARNING)  # Hydra shows what is told, and JAX tells of every accelerator it lacks
     debug = "debug=true" in (argument.lower() for argument in sys.argv)
     try:
         _composed_by_hydra()

@@ -97,6 +97,8 @@ def test_frozen_gaussians_behind_the_scaffold_are_left_out():
     shown = visible_columns(projected, view.depth)
     inside = (projected.extent > 0).all(0) & (np.abs(projected.mean2d - [[20], [12]]) < [[20], [12]]).all(0)
     assert shown.opacity.shape[0] >= inside.sum() > 0  # everything in the image is on the scaffold
+    coarse = visible_columns(projected, view.depth[::2, ::2], view.depth.shape)
+    assert abs(coarse.opacity.shape[0] - shown.opacity.shape[0]) <= 0.02 * shown.opacity.shape[0]
     assert visible_columns(projected, 0.2 * view.depth).opacity.shape[0] < 0.3 * inside.sum()
     assert visible_columns(projected, 0 * view.depth).opacity.shape == shown.opacity.shape
 
