@@ -49,7 +49,8 @@ def test_detail_is_gathered_in_its_own_finer_cells():
     assert len(coarse.points) < len(cloud.points) < len(coarse.points) + len(fine.points)
     assert wall_distance(cloud.points).max() < 1e-5
     both = initial_gaussians(views, settings=FitSettings(spacing=0.3, detail_spacing=0.1), rng=np.random.default_rng(0))
-    np.testing.assert_allclose(np.exp(both.log_scales[:, 0]), 0.5 * cloud.spacings, rtol=1e-6)
+    size = np.where(cloud.spacings == 0.3, 0.65, 0.5) * cloud.spacings
+    np.testing.assert_allclose(np.exp(both.log_scales[:, 0]), size, rtol=1e-6)
 
 
 def test_the_near_side_of_a_silhouette_counts_as_detail():

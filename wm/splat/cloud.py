@@ -19,8 +19,9 @@ from wm.schema import FitSettings
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
-TANGENTIAL, NORMAL = 0.5, 0.05
-"""Standard deviations along and across the surface, as shares of the spacing (experiments/fit_defaults)."""
+TANGENTIAL, TANGENTIAL_DETAIL, NORMAL = 0.65, 0.5, 0.05
+"""Standard deviations along and across the surface, as shares of the spacing: plain surfaces want no gaps, detail sharp edges
+(experiments/fit_defaults)."""
 
 BESIDE = 8 / 688
 """Share of the image's width that counts as beside a silhouette."""
@@ -98,7 +99,8 @@ def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, r
     """
     cloud = surface_cloud(views, settings.spacing, settings.detail_spacing)
     n = len(cloud.points)
-    size = np.repeat(cloud.spacings[:, None] * TANGENTIAL, 3, axis=1)
+    tangential = np.where(cloud.spacings < settings.spacing, TANGENTIAL_DETAIL, TANGENTIAL)
+    size = np.repeat((cloud.spacings * tangential)[:, None], 3, axis=1)
     points, colors, quats, opacity = cloud.points, cloud.colors, np.tile([1.0, 0.0, 0.0, 0.0], (n, 1)), settings.opacity
     match settings.init:
         case "flat":
