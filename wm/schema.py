@@ -135,8 +135,8 @@ class EvaluateConfig:
 class ReportConfig:
     enabled: bool = True
     video: bool = True
-    fps: int = 12
-    walking_speed: float = 2.0  # metres a second along the fly-through
+    fps: int = 10
+    walking_speed: float = 2.4  # metres a second along the fly-through
 
 
 @dataclass(kw_only=True, unsafe_hash=True)

@@ -23,7 +23,7 @@ from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.reconstruction import Reconstruction
 from wm.stages.scene import Scene
-from wm.types import GBuffer, Render, SurfaceKind, View
+from wm.types import OUTSIDE, GBuffer, Render, SurfaceKind, View
 
 _ssim = jax.jit(ssim)
 
@@ -55,17 +55,17 @@ def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, h
 def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
     """A view of the splats and of the scaffold."""
     gbuffer = cast(scene.rays, view.camera)
-    return Seen(view=view, render=renderer.render(view.camera, _rooms_seen(scene, view), gbuffer.depth), gbuffer=gbuffer)
+    rooms = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
+    render = renderer.render(view.camera, [int(room) for room in rooms], gbuffer.depth)
+    return Seen(view=view, render=render, gbuffer=gbuffer)
 
 
 def glimpse(scene: Scene, renderer: SceneRenderer, view: View) -> Render:
-    """A view of the splats alone; what stands in the way is asked of the scaffold at a quarter of the resolution."""
-    depth = cast(scene.rays, scale_camera(view.camera, GLIMPSE)).depth
-    return renderer.render(view.camera, _rooms_seen(scene, view), depth)
-
-
-def _rooms_seen(scene: Scene, view: View) -> list[int]:
-    return [int(room) for room in np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])]
+    """A view of the splats alone. Which rooms it sees and what stands in the way is asked of the scaffold at a quarter of the
+    resolution, so a room of which less than a few pixels show may be missing."""
+    gbuffer = cast(scene.rays, scale_camera(view.camera, GLIMPSE))
+    rooms = np.unique(scene.mesh.face_room[gbuffer.face[gbuffer.hit]])
+    return renderer.render(view.camera, [int(room) for room in rooms if room != OUTSIDE], gbuffer.depth)
 
 
 def look_all(scene: Scene, renderer: SceneRenderer, views: Sequence[View]) -> Iterator[Seen]:
