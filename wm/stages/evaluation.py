@@ -27,8 +27,11 @@ from wm.types import OUTSIDE, GBuffer, Render, SurfaceKind, View
 
 _ssim = jax.jit(ssim)
 
-GLIMPSE, SPARSE = 1 / 4, 2
 EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
+GLIMPSE = 1 / 4
+"""Resolution at which a frame of the fly-through asks the scaffold what stands in its way."""
+SPARSE = 2
+"""Every so many rows and columns of a view are moved into another to compare their depths."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
