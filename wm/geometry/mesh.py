@@ -8,7 +8,8 @@ from jaxtyping import Float
 from wm.types import OUTSIDE, Mesh, SceneObject, SurfaceKind
 
 BOX_COLOR = 0.5  # sRGB grey of the boxes that stand in for objects
-_BOX_FACES = np.array(
+BOX_CORNERS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], np.float64)
+BOX_FACES = np.array(
     [
         [0, 2, 1],
         [0, 3, 2],
@@ -72,14 +73,13 @@ def _boxed(thing: SceneObject) -> SceneObject:
     rotation, origin = thing.T_world_object[:3, :3], thing.T_world_object[:3, 3]
     local = (thing.vertices - origin) @ rotation
     low, high = local.min(axis=0), local.max(axis=0)
-    unit = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], np.float64)
     return SceneObject(
         label=thing.label,
         room=thing.room,
         support=thing.support,
-        vertices=(low + unit * (high - low)) @ rotation.T + origin,
-        faces=_BOX_FACES.copy(),
-        face_slot=np.zeros(len(_BOX_FACES), np.int32),
+        vertices=(low + BOX_CORNERS * (high - low)) @ rotation.T + origin,
+        faces=BOX_FACES.copy(),
+        face_slot=np.zeros(len(BOX_FACES), np.int32),
         slots=("grey",),
         slot_colors=np.full((1, 3), BOX_COLOR, np.float32),
         T_world_object=thing.T_world_object,

@@ -15,14 +15,19 @@ def rotations(quats):
 
     The rotation does not depend on the length, so dividing by the largest component is free of a derivative of its own.
     """
-    largest = jax.lax.stop_gradient(functools.reduce(jnp.maximum, map(jnp.abs, quats)))
-    w, x, y, z = (row / jnp.where(largest == 0, 1.0, largest) for row in quats)
+    (w, x, y, z), _ = by_largest(quats)
     s = safe_div(jnp.full_like(w, 2.0), w * w + x * x + y * y + z * z)
     return [
         [1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)],
         [s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)],
         [s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)],
     ]
+
+
+def by_largest(quats):
+    """Quaternions [4] over the size of their largest component, whose squares cannot overflow, and that size; zero stays zero."""
+    largest = jax.lax.stop_gradient(functools.reduce(jnp.maximum, map(jnp.abs, quats)))
+    return [row / jnp.where(largest == 0, 1.0, largest) for row in quats], largest
 
 
 def clamped(slope, axis: int, camera: Camera, settings: RasterSettings):

@@ -18,7 +18,7 @@ from jaxtyping import Array, Bool
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.splat._apart import apart
-from wm.splat._axes import clamped, rotations
+from wm.splat._axes import by_largest, clamped, rotations
 from wm.types import Camera
 
 
@@ -76,8 +76,7 @@ def pull_ellipses(means, quats, log_scales, camera: Camera, settings: RasterSett
         return stretch, [turns[0][j] + turns[1][j] for j in range(3)]
 
     def by_quats(quats, torque):
-        largest = jnp.maximum(jnp.maximum(abs(quats[0]), abs(quats[1])), jnp.maximum(abs(quats[2]), abs(quats[3])))
-        w, x, y, z = (row / jnp.where(largest == 0, 1.0, largest) for row in quats)
+        (w, x, y, z), largest = by_largest(quats)
         scale = safe_div(jnp.full_like(w, 2.0), (w * w + x * x + y * y + z * z) * largest)
         u, v, t = (scale * row for row in torque)
         return [-(x * u + y * v + z * t), w * u + y * t - z * v, w * v + z * u - x * t, w * t + x * v - y * u]

@@ -12,7 +12,6 @@ from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, coverage, navigability, visible_rooms
 from wm.geometry.camera import scale_camera
-from wm.host import cores
 from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
 from wm.splat.reprojection import every, overlap, reprojection_error, shared_pixels
 from wm.splat.scene_render import SceneRenderer
@@ -73,7 +72,7 @@ def glimpse(scene: Scene, renderer: SceneRenderer, view: View) -> Render:
 
 def look_all(scene: Scene, renderer: SceneRenderer, views: Sequence[View]) -> Iterator[Seen]:
     """Every view in order, on every core."""
-    return in_order(lambda _, view: look(scene, renderer, view), views, range(cores()))
+    return in_order(lambda view: look(scene, renderer, view), views)
 
 
 def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict:
@@ -134,7 +133,7 @@ def _surface_of(scene: Scene, gbuffer: GBuffer) -> np.ndarray:
 def _reprojection(seen: Sequence[Seen], min_overlap: float) -> Iterator[dict[str, float]]:
     """Both ways of every pair of a room's views that share enough surface."""
     pairs = itertools.combinations(seen, 2)
-    for rows in in_order(lambda _, pair: _pair(*pair, min_overlap), pairs, range(cores())):
+    for rows in in_order(lambda pair: _pair(*pair, min_overlap), pairs):
         yield from rows
 
 

@@ -5,7 +5,6 @@ import dataclasses
 import numpy as np
 
 from wm import codecs
-from wm.host import cores
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.scene import Scene
@@ -37,7 +36,7 @@ def render_heldout(job: Job, scene: Scene, image: ImageBackend) -> HeldOut:
         wanted = [view for view in scene.heldout if not job.folder.has(_name(view), key)]
         job.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
         with job.bar("heldout", len(wanted)) as bar:
-            for view, rgb in zip(wanted, in_order(lambda _, view: truth(view), wanted, range(cores()))):
+            for view, rgb in zip(wanted, in_order(truth, wanted)):
                 job.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(rgb))})
                 bar.update()
     return HeldOut(known=True, key=key, job=job)

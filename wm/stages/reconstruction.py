@@ -107,11 +107,11 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) ->
     folder.drop_others("fit/", {name(r, room) for r in range(config.fit.rounds) for room in rooms})
     seeds = np.random.SeedSequence([config.seed, 1])
 
-    def initial(_: int, room: int) -> Gaussians:
+    def initial(room: int) -> Gaussians:
         return initial_gaussians(views(room), settings=config.fit, rng=np.random.default_rng(children[room]))
 
     children = seeds.spawn(len(rooms))
-    start = list(in_order(initial, rooms, range(cores())))
+    start = list(in_order(initial, rooms))
     with job.bar("reconstruct", len(rooms) * config.fit.steps) as bar:
 
         def progress(done: int, total: int, info: dict) -> None:

@@ -8,7 +8,6 @@ import numpy as np
 from wm.artifacts import json_text
 from wm.codecs import to_bytes
 from wm.geometry import walkthrough
-from wm.host import cores
 from wm.report import ReportData, SheetRow, render_page, write_video
 from wm.stages.evaluation import METRICS, Seen, glimpse, look_all
 from wm.stages.job import Job
@@ -65,7 +64,7 @@ def _video(job: Job, scene: Scene, result: Reconstruction) -> bytes:
 
         def frames() -> Iterator[np.ndarray]:
             with job.bar("video", len(views)) as bar:
-                for render in in_order(lambda _, view: glimpse(scene, result.renderer, view), views, range(cores())):
+                for render in in_order(lambda view: glimpse(scene, result.renderer, view), views):
                     yield to_bytes(render.rgb)
                     bar.update()
 

@@ -5,6 +5,7 @@ import functools
 import numpy as np
 
 from wm.geometry import build_structure, parse_plan
+from wm.geometry.mesh import BOX_CORNERS, BOX_FACES
 from wm.synth.backends import SceneContext
 from wm.synth.procedural.light import BakeSettings
 from wm.types import SceneObject
@@ -25,26 +26,11 @@ def box(
 ) -> SceneObject:
     """An axis-aligned box of one slot, its colour a middle red."""
     a, b = np.array(low, float), np.array(high, float)
-    unit = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float)
-    faces = [
-        [0, 2, 1],
-        [0, 3, 2],
-        [4, 5, 6],
-        [4, 6, 7],
-        [0, 1, 5],
-        [0, 5, 4],
-        [1, 2, 6],
-        [1, 6, 5],
-        [2, 3, 7],
-        [2, 7, 6],
-        [3, 0, 4],
-        [3, 4, 7],
-    ]
     T_world_object = np.eye(4)
     T_world_object[:3, 3] = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, a[2]]
     return SceneObject(
-        label=label, room=room, support="floor", vertices=a + unit * (b - a), faces=np.array(faces, np.int32),
-        face_slot=np.zeros(12, np.int32), slots=(slot,), slot_colors=np.array([[0.6, 0.3, 0.25]], np.float32),
+        label=label, room=room, support="floor", vertices=a + BOX_CORNERS * (b - a), faces=BOX_FACES.copy(),
+        face_slot=np.zeros(len(BOX_FACES), np.int32), slots=(slot,), slot_colors=np.array([[0.6, 0.3, 0.25]], np.float32),
         T_world_object=T_world_object, size=b - a, emission=np.array([emission], np.float32),
     )  # fmt: skip
 

@@ -6,8 +6,6 @@ L is weighed by clip(L / footprint - 1, 0, 1), a line is integrated over the foo
 octaves; Quilez, "Filtering procedural textures", for the line integral).
 """
 
-from collections.abc import Callable
-
 import numpy as np
 from jaxtyping import Float, Int, UInt32
 
@@ -16,6 +14,7 @@ F32 = np.float32
 GAIN = F32(1.6)
 """Brings gradient noise, whose extremes are rare, to a standard deviation of about 0.35."""
 PART = 1 << 12
+"""Points that noise is computed for at a time."""
 _PRIMES = (0x9E3779B1, 0x85EBCA77, 0x27D4EB2F)
 
 
@@ -45,25 +44,25 @@ def random_cells(x: Int[np.ndarray, "..."], y: Int[np.ndarray, "..."], *, seed: 
 
 def noise2(x: Float[np.ndarray, "..."], y: Float[np.ndarray, "..."], *, seed: int) -> Float[np.ndarray, "..."]:
     """Gradient noise of wavelength 1 in about [-1, 1], zero on average (Source: Perlin 2002, quintic fade)."""
-    return _in_parts(_noise, (x, y), seed)
+    return _noise((x, y), seed)
 
 
 def noise3(
     x: Float[np.ndarray, "..."], y: Float[np.ndarray, "..."], z: Float[np.ndarray, "..."], *, seed: int
 ) -> Float[np.ndarray, "..."]:
     """`noise2` in three dimensions."""
-    return _in_parts(_noise, (x, y, z), seed)
+    return _noise((x, y, z), seed)
 
 
-def _in_parts(f: Callable, coordinates: tuple[np.ndarray, ...], seed: int) -> np.ndarray:
-    """f(coordinates, seed) on PART points at a time, so that what all corners of a cell need together stays in the cache."""
+def _noise(coordinates: tuple[np.ndarray, ...], seed: int) -> np.ndarray:
+    """Gradient noise, PART points at a time, so that what all corners of a cell need together stays in the cache."""
     arrays = np.broadcast_arrays(*coordinates)
     flat = [array.reshape(-1) for array in arrays]
-    parts = [f([array[i : i + PART] for array in flat], seed) for i in range(0, max(len(flat[0]), 1), PART)]
+    parts = [_part([array[i : i + PART] for array in flat], seed) for i in range(0, max(len(flat[0]), 1), PART)]
     return (parts[0] if len(parts) == 1 else np.concatenate(parts)).reshape(arrays[0].shape)
 
 
-def _noise(coordinates: list[np.ndarray], seed: int) -> np.ndarray:
+def _part(coordinates: list[np.ndarray], seed: int) -> np.ndarray:
     """Gradient noise at n points: the corners of their cells, 2 x 2 or 2 x 2 x 2, are leading axes of every array here."""
     dimensions = len(coordinates)
     bits = 16 if dimensions == 2 else 10
