@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from wm.geometry import _embree
-from wm.geometry.camera import camera_center, ray_basis
+from wm.geometry.camera import basis_rays, camera_center, ray_basis
 from wm.geometry.mesh import check_mesh, face_normals
 from wm.types import Camera, GBuffer, Mesh
 
@@ -71,7 +71,7 @@ def cast(scene: Mesh | RayScene, camera: Camera) -> GBuffer:
     )
 
     def trace(part: slice) -> None:
-        directions = (rows[part, None, :] + columns).reshape(-1, 3)
+        directions = basis_rays(columns, rows[part])
         found = _embree.intersect(scene.embree, np.broadcast_to(eye, directions.shape), directions)
         face = found["primID"]
         hit = face >= 0

@@ -47,7 +47,8 @@ def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, h
     with job.stage("evaluate"):
         config = job.config
         key = job.key("evaluate", result.key, config.evaluate, config.navigation)
-        if not job.folder.has("evaluate", key):
+        pictures = [_entry(view) for view in scene.heldout]
+        if not all(job.folder.has(name, key) for name in ("evaluate", *pictures)):
             metrics = _scene_metrics(job, scene, painted, result) | _heldout_metrics(job, scene, result, heldout, key)
             clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
             job.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
@@ -73,6 +74,19 @@ def glimpse(scene: Scene, renderer: SceneRenderer, view: View) -> Render:
 def look_all(scene: Scene, renderer: SceneRenderer, views: Sequence[View]) -> Iterator[Seen]:
     """Every view in order, on every core."""
     return in_order(lambda view: look(scene, renderer, view), views)
+
+
+def stored_render(job: Job, view: View) -> np.ndarray:
+    """[h, w, 3] uint8: the splats from a held-out view, as `evaluate` stored them."""
+    return codecs.decode_png((job.folder.path / _picture(view)).read_bytes())
+
+
+def _entry(view: View) -> str:
+    return f"evaluate/{view.name}"
+
+
+def _picture(view: View) -> str:
+    return f"heldout/{view.name}.png"
 
 
 def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict:
@@ -101,7 +115,7 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: He
                 if heldout.known:
                     row |= _photometry(one.render.rgb, heldout.truth(one.view))
                 picture = codecs.encode_png(codecs.to_bytes(one.render.rgb))
-                job.folder.save(f"evaluate/{one.view.name}", key, {f"heldout/{one.view.name}.png": picture})
+                job.folder.save(_entry(one.view), key, {_picture(one.view): picture})
                 rows.append(row)
                 seen.append(one)
                 bar.update()

@@ -7,9 +7,10 @@ import numpy as np
 
 from wm.artifacts import json_text
 from wm.codecs import to_bytes
-from wm.geometry import walkthrough
+from wm.geometry import cast, walkthrough
+from wm.geometry.camera import scale_camera
 from wm.report import ReportData, SheetRow, render_page, write_video
-from wm.stages.evaluation import METRICS, Seen, glimpse, look_all
+from wm.stages.evaluation import GLIMPSE, METRICS, Seen, glimpse, look_all, stored_render
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
@@ -47,7 +48,7 @@ def _page(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> R
         objects=scene.objects,
         views=scene.views,
         sheets=_sheets(scene, painted, result),
-        heroes=_heroes(scene, result),
+        heroes=_heroes(job, scene),
         metrics={},
         timings={},
         history=_scene_curve(result.history),
@@ -100,18 +101,18 @@ def _sheet_row(painted: Painted, seen: Seen) -> SheetRow:
     )
 
 
-def _heroes(scene: Scene, result: Reconstruction) -> dict[str, np.ndarray]:
-    """One held-out view a room: the one that sees farthest, so that most of the room is in it."""
-    best: dict[str, Seen] = {}
-    for seen in look_all(scene, result.renderer, scene.heldout):
-        room = scene.rooms[seen.view.room]
-        if room not in best or _reach(seen) > _reach(best[room]):
-            best[room] = seen
-    return {room: to_bytes(seen.render.rgb) for room, seen in best.items()}
+def _heroes(job: Job, scene: Scene) -> dict[str, np.ndarray]:
+    """One held-out render a room, as the evaluation stored it: the view that sees farthest, so that most of the room is in it."""
+    heroes = {}
+    for index, room in enumerate(scene.rooms):
+        members = [view for view in scene.heldout if view.room == index]
+        if members:
+            heroes[room] = stored_render(job, max(members, key=lambda view: _reach(scene, view)))
+    return heroes
 
 
-def _reach(seen: Seen) -> float:
-    return float(np.median(seen.gbuffer.depth))
+def _reach(scene: Scene, view: View) -> float:
+    return float(np.median(cast(scene.rays, scale_camera(view.camera, GLIMPSE)).depth))
 
 
 def _scene_curve(history: tuple[dict, ...]) -> list[dict]:
