@@ -11,7 +11,7 @@ import numpy as np
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.frozen import join_columns, pad_columns, visible_columns
 from wm.splat.room_fit import Capacity, Device, FitPoint, RoomFit, SeenView, host, pad_gaussians, to_target, unpad_rows
-from wm.splat.step import project_view, start_state
+from wm.splat.step import project_view, raster_for, start_state
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
@@ -60,7 +60,7 @@ def fit(
     """
     if not views:
         raise ValueError("a fit needs at least one view")
-    raster = dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0)
+    raster = raster_for(settings, raster)
     device = device or jax.devices()[0]
     started = time.perf_counter()
     behind = [] if frozen is None else [jax.device_put(pad_gaussians(frozen, len(frozen.opacity_logits)), device)]

@@ -20,6 +20,7 @@ from wm.schema import FitSettings, RasterSettings
 from wm.splat.checkpoint import RoomState, from_arrays, initial_state, to_arrays
 from wm.splat.fit import DEFAULT_RASTER, Progress, see_views, seed_of
 from wm.splat.room_fit import Capacity, Device, FitPoint, RoomFit, pad_gaussians, pad_rows, unpad_rows
+from wm.splat.step import raster_for
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
@@ -75,7 +76,7 @@ def fit_scene(
         views=views,
         heldout=heldout,
         settings=settings,
-        raster=dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0),
+        raster=raster_for(settings, raster),
         seed=seed_of(key),
         report=_Report(len(gaussians) * settings.steps, progress),
     )

@@ -68,6 +68,11 @@ class StepTerms:
     finite: Any
 
 
+def raster_for(settings: FitSettings, raster: RasterSettings) -> RasterSettings:
+    """The rasterizer's constants for a fit: depth is rendered if, and only if, a term of its loss reads it."""
+    return dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0)
+
+
 def start_state(gaussians: Gaussians) -> TrainState:
     """A state with no history."""
     mu, nu = (jax.tree.map(np.zeros_like, gaussians) for _ in range(2))
