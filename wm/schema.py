@@ -103,6 +103,7 @@ class FitSettings:
     detail_spacing: float = 0.0275  # the same on objects and beside silhouettes
     opacity: float = 0.9  # initial
     steps: int = 120  # optimiser steps per room
+    batch: int = 1  # views a step, whose gradients are averaged
     rounds: int = 1  # rooms see their neighbours' latest gaussians this many times
     ssim_weight: float = 0.2
     normal_weight: float = 0.3  # of the angle between the surface of the splat depth and the scaffold's; the paper has none
@@ -113,6 +114,11 @@ class FitSettings:
     lr_opacities: float = 0.2
     lr_sh: float = 4e-2
     lr_final: float = 0.1  # learning rates decay to this share
+    exposure: bool = False  # a gain and an offset for each view and channel, for image models that drift
+    lr_exposure: float = 0.05  # what they move by in a step if all pixels of a view are too bright
+    refine_every: int = 0  # steps between refinements, which give faint gaussians to where the residual stays; 0: none
+    refine_share: float = 0.05  # of all gaussians that move at most in one of them
+    refine_dead: float = 0.05  # opacity up to which a gaussian counts as faint
     sh_degree: int = 0
     curve_points: int = 6  # held-out evaluations along the fit
 

@@ -1,6 +1,9 @@
 """Laws of the fit of one room: it gets better, repeats itself byte for byte, and stops at the last good state."""
 
 import dataclasses
+import os
+import subprocess
+import sys
 
 import jax
 import numpy as np
@@ -8,11 +11,13 @@ import pytest
 
 from tests.splat.rooms import SIZE, views_of
 from wm.schema import FitSettings, RasterSettings
+from wm.splat.batch import batch_at, to_target, view_at
 from wm.splat.cloud import initial_gaussians
-from wm.splat.fit import fit
+from wm.splat.curve import curve_steps
+from wm.splat.fit import FitError, fit
 from wm.splat.frozen import visible_columns
-from wm.splat.room_fit import CULLED_LOGIT, curve_steps, pad_gaussians, to_target, view_at
-from wm.splat.step import project_view, rates_at, train_step
+from wm.splat.padding import CULLED_LOGIT, pad_gaussians
+from wm.splat.step import project_view, rates_at, view_gradient
 
 SLOW = {"lr_means": 2e-3, "lr_quats": 1e-3, "lr_scales": 5e-3, "lr_opacities": 5e-2, "lr_sh": 3e-2}
 """Rates for a dozen steps of a coarse cloud: the defaults are for many steps of a fine one."""
@@ -55,9 +60,9 @@ def test_the_key_decides_every_byte():
 
 def test_steps_of_one_shape_are_compiled_once():
     run()
-    traces = train_step._cache_size()
+    traces = view_gradient._cache_size()
     run(settings=dataclasses.replace(SETTINGS, lr_means=1e-3, ssim_weight=0.5, steps=7, lr_final=0.5))
-    assert train_step._cache_size() == traces
+    assert view_gradient._cache_size() == traces
 
 
 def test_a_loss_that_is_not_finite_stops_at_the_last_good_state():
@@ -123,3 +128,66 @@ def test_rates_fall_to_their_share_and_the_curve_spans_the_fit():
 def test_no_views_is_an_error():
     with pytest.raises(ValueError, match="at least one view"):
         run(views=[])
+
+
+def test_batches_of_an_epoch_show_every_view_once_and_never_more_views_than_there_are():
+    visits = [view for step in range(3) for view in batch_at((1, 2), step, 2, 6)]
+    assert sorted(visits) == list(range(6)) and visits == [view_at((1, 2), visit, 6) for visit in range(6)]
+    assert sorted(batch_at((1, 2), 5, 9, 4)) == [0, 1, 2, 3]
+
+
+def test_a_batch_of_equal_views_is_one_view():
+    settings = dataclasses.replace(SETTINGS, steps=4)
+    twice = run(views=[VIEWS[0]] * 2, settings=dataclasses.replace(settings, batch=2))
+    assert same_bytes(twice.gaussians, run(views=VIEWS[:1], settings=settings).gaussians)
+
+
+def test_who_computes_a_batch_changes_no_byte():
+    settings = dataclasses.replace(SETTINGS, steps=4, batch=3)
+    alone, shared = (run(settings=settings, devices=jax.devices()[:1] * count) for count in (1, 2))
+    assert same_bytes(alone.gaussians, shared.gaussians)
+    assert not same_bytes(alone.gaussians, run(settings=dataclasses.replace(settings, batch=1)).gaussians)
+
+
+@pytest.mark.slow
+def test_two_devices_give_the_bytes_of_one():
+    code = (
+        "import dataclasses, jax; from tests.splat import test_fit as t;"
+        "settings = dataclasses.replace(t.SETTINGS, steps=4, batch=3);"
+        "one, two = (t.run(settings=settings, devices=jax.devices()[:count]) for count in (1, 2));"
+        "print(len(jax.devices()), t.same_bytes(one.gaussians, two.gaussians))"
+    )
+    env = os.environ | {"JAX_NUM_CPU_DEVICES": "2", "JAX_PLATFORMS": "cpu"}
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env, check=True)
+    assert found.stdout.split() == ["2", "True"]
+
+
+def test_an_error_of_the_callback_is_raised_with_what_was_reached():
+    def fail(done, total, info):
+        if done == 3:
+            raise ZeroDivisionError("a chart without an axis")
+
+    with pytest.raises(FitError, match=r"room 0, step 3: ZeroDivisionError: a chart without an axis") as caught:
+        run(progress=fail)
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+    interrupted = caught.value.fit
+    assert interrupted.stopped == str(caught.value) and not same_bytes(interrupted.gaussians, START)
+
+
+def test_an_interrupt_keeps_what_was_reached_which_is_what_an_undisturbed_fit_has_then():
+    def interrupt(done, total, info):
+        if done == 6:
+            raise KeyboardInterrupt
+
+    halfway = run(settings=dataclasses.replace(SETTINGS, lr_final=1.0), progress=interrupt)
+    assert halfway.stopped == "room 0, step 6: interrupted"
+    assert same_bytes(halfway.gaussians, run(settings=dataclasses.replace(SETTINGS, lr_final=1.0, steps=6)).gaussians)
+
+
+def test_a_fit_with_refinement_keeps_its_number_and_repeats_itself():
+    faint = START.replace(opacity_logits=np.where(np.arange(len(START.means)) % 5, START.opacity_logits, -5).astype(np.float32))
+    settings = dataclasses.replace(SETTINGS, refine_every=4, refine_share=0.2)
+    once, again, never = (run(faint, settings=s) for s in (settings, settings, dataclasses.replace(settings, refine_every=50)))
+    assert same_bytes(once.gaussians, again.gaussians) and len(once.gaussians.means) == len(START.means)
+    moved = np.linalg.norm(once.gaussians.means - never.gaussians.means, axis=1)
+    assert (moved[::5] > 0.3).mean() > 0.5 and once.stopped is None

@@ -2,8 +2,10 @@
 
 import dataclasses
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import jax
 import numpy as np
@@ -11,9 +13,13 @@ import pytest
 
 from tests.splat.rooms import views_of
 from wm.schema import FitSettings, RasterSettings
-from wm.splat.checkpoint import from_arrays, initial_state, to_arrays
+from wm.splat.checkpoint import from_arrays, to_arrays
 from wm.splat.cloud import initial_gaussians
+from wm.splat.exposure import no_exposure
+from wm.splat.refine import no_residual, observe
+from wm.splat.room_state import initial_state
 from wm.splat.scene_fit import fit_scene
+from wm.splat.watch import start_watch
 
 ROOMS = 3
 SETTINGS = FitSettings(spacing=0.6, detail_spacing=0.6, steps=4, rounds=2, curve_points=2)
@@ -74,12 +80,65 @@ def test_a_killed_run_resumes_and_ends_in_the_same_bytes(once):
     assert steps[-1][:2] == (ROOMS * 4, ROOMS * 4) and sum(bool(info) for *_, info in steps) == 2 * (6 - len(kept))
 
 
+@pytest.mark.parametrize("extra", [{}, {"exposure": True, "refine_every": 1}], ids=["plain", "exposure and refinement"])
+def test_a_run_killed_within_a_round_resumes_in_the_middle_of_a_room_and_ends_in_the_same_bytes(extra):
+    settings = dataclasses.replace(SETTINGS, steps=6, rounds=2, curve_points=3, **extra)
+    undisturbed, kept, left, steps = run(settings=settings), {}, {}, []
+
+    def progress(done, total, info):
+        if done == 11:
+            left.update(kept)  # what a kill at this moment leaves behind
+
+    def store(round_, room, arrays):
+        kept[round_, room] = {name: value.copy() for name, value in arrays.items()}
+
+    run(settings=settings, store=store, progress=progress, checkpoint_seconds=0.0)
+    assert [int(arrays["step"]) for (round_, _), arrays in left.items() if round_ == 1] == [4]
+    resumed = run(
+        settings=settings,
+        load=lambda round_, room: left.get((round_, room)),
+        progress=lambda done, total, info: steps.append((done, bool(info))),
+    )
+    assert raw(resumed.gaussians) == raw(undisturbed.gaussians)
+    assert steps[-1][0] == ROOMS * 6 and sum(info for _, info in steps) == ROOMS * 6 - 10
+    without_time = [dataclasses.replace(point, seconds=0.0) for point in resumed.history]
+    assert repr(without_time) == repr([dataclasses.replace(point, seconds=0.0) for point in undisturbed.history])
+
+
+def test_an_interrupt_ends_every_room_at_its_next_step_and_stores_it(once):
+    kept, threads = {}, []
+
+    def progress(done, total, info):
+        threads.append(done)
+        if done == 2:
+            signal.raise_signal(signal.SIGINT)  # reaches the main thread, as Ctrl-C does
+            time.sleep(0.2)
+
+    with pytest.raises(KeyboardInterrupt):
+        run(store=lambda round_, room, arrays: kept.update({(round_, room): arrays}), progress=progress)
+    assert len(threads) < ROOMS * 4 and kept
+    resumed = run(load=lambda round_, room: kept.get((round_, room)))
+    assert raw(resumed.gaussians) == raw(once.gaussians)
+
+
 def test_a_state_survives_its_arrays():
-    state = dataclasses.replace(initial_state(START[0]), stopped="why")
-    again = from_arrays(to_arrays(state))
-    assert raw(again.train) == raw(state.train) and again.stopped == "why" and again.history == ()
+    n = len(START[0].means)
+    state = dataclasses.replace(
+        initial_state(START[0]),
+        step=3,
+        since=np.ones((2, 4)),
+        exposure=no_exposure(3),
+        residual=observe(no_residual(n), np.ones((2, n), np.float32)),
+        watch=start_watch(START[0], 1, 3, 4),
+        stopped="why",
+    )
+    arrays = to_arrays(state)
+    again = to_arrays(from_arrays(arrays))
+    assert arrays.keys() == again.keys()
+    assert all(arrays[name].tobytes() == again[name].tobytes() and arrays[name].dtype == again[name].dtype for name in arrays)
+    assert {name.split(".")[0] for name in to_arrays(initial_state(START[0]))}.isdisjoint({"exposure", "residual", "watch"})
     with pytest.raises(ValueError, match=r"mu\.sh"):
-        from_arrays({name: value for name, value in to_arrays(state).items() if name != "mu.sh"})
+        from_arrays({name: value for name, value in arrays.items() if name != "mu.sh"})
 
 
 def test_an_error_of_a_room_reaches_the_caller():

@@ -18,13 +18,13 @@
 
 from wm.splat.cloud import initial_gaussians
 from wm.splat.composite import rasterize
+from wm.splat.curve import FitPoint
 from wm.splat.fit import Fit, fit
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
 from wm.splat.ply import PlyError, load_ply, save_ply
 from wm.splat.project import Projected, project
 from wm.splat.render import render
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
-from wm.splat.room_fit import FitPoint
 from wm.splat.scene_fit import SceneFit, fit_scene
 from wm.splat.ssim import ssim, ssim_map
 from wm.splat.tiles import TilePlan, plan_tiles

@@ -1,43 +1,44 @@
-"""The state of a room between rounds, as named arrays that a run folder can keep and bring back bit by bit."""
+"""The state of a room as named arrays that a run folder can keep and bring back bit by bit, between rounds or within one."""
 
 import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
 
-from wm.splat.room_fit import FitPoint, pad_rows, unpad_rows
-from wm.splat.step import TrainState, adam_state, start_state
+from wm.splat.curve import FitPoint
+from wm.splat.refine import Residual
+from wm.splat.room_state import RoomState
+from wm.splat.step import TrainState, adam_state
+from wm.splat.watch import Watch
 from wm.types import Gaussians
 
 _LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class RoomState:
-    """A room after some steps, on the host: nothing padded."""
-
-    train: TrainState
-    history: tuple[FitPoint, ...] = ()
-    stopped: str | None = None
-
-
-def initial_state(gaussians: Gaussians) -> RoomState:
-    """The state of a room before its first step."""
-    gaussians = pad_rows(gaussians, len(gaussians.opacity_logits))
-    return RoomState(train=unpad_rows(start_state(gaussians), len(gaussians.opacity_logits)))
+_GROUPS = ("gaussians", "mu", "nu")
+_OTHERS = ("count", "step", "history", "since", "stopped")
 
 
 def to_arrays(state: RoomState) -> dict[str, np.ndarray]:
-    """The state as arrays: `gaussians.means`, `mu.means`, `nu.means` ..., `count`, `history` [points, fields], `stopped`."""
+    """The state as arrays: `gaussians.means`, `mu.means`, `nu.means` ..., `count`, `history` [points, fields], `stopped` ...
+
+    What the settings leave out is not stored: `exposure`, `residual.*`; nor, at the end of a round, `watch.*`.
+    """
     moments = state.train.moments
-    groups = {"gaussians": state.train.gaussians, "mu": moments.mu, "nu": moments.nu}
+    groups = dict(zip(_GROUPS, (state.train.gaussians, moments.mu, moments.nu)))
     arrays = {f"{group}.{leaf}": np.asarray(getattr(record, leaf)) for group, record in groups.items() for leaf in _LEAVES}
     history = np.array([dataclasses.astuple(point) for point in state.history], np.float64)
-    return arrays | {
+    arrays |= {
         "count": np.asarray(moments.count),
+        "step": np.array(state.step),
         "history": history.reshape(-1, len(dataclasses.fields(FitPoint))),
+        "since": state.since,
         "stopped": np.array(state.stopped or ""),
     }
+    if state.exposure is not None:
+        arrays["exposure"] = state.exposure
+    for name in ("residual", "watch"):
+        record = getattr(state, name)
+        arrays |= {} if record is None else _flat(name, record)
+    return arrays
 
 
 def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
@@ -45,15 +46,48 @@ def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
 
     Raises: ValueError naming what is missing.
     """
-    names = [f"{group}.{leaf}" for group in ("gaussians", "mu", "nu") for leaf in _LEAVES]
-    missing = [name for name in [*names, "count", "history", "stopped"] if name not in arrays]
+    needed = [*(f"{group}.{leaf}" for group in _GROUPS for leaf in _LEAVES), *_OTHERS]
+    missing = [name for name in needed if name not in arrays]
     if missing:
         raise ValueError(f"a stored room has no {', '.join(missing)}: not written by this version")
-    gaussians, mu, nu = (
-        Gaussians(**{leaf: np.asarray(arrays[f"{group}.{leaf}"]) for leaf in _LEAVES}) for group in ("gaussians", "mu", "nu")
-    )
+    gaussians, mu, nu = (_gaussians(group, arrays) for group in _GROUPS)
     names = [field.name for field in dataclasses.fields(FitPoint)]
     rows = [dict(zip(names, row.tolist())) for row in arrays["history"]]
-    history = tuple(FitPoint(**row | {"step": int(row["step"]), "room": int(row["room"])}) for row in rows)
-    train = TrainState(gaussians=gaussians, moments=adam_state(np.asarray(arrays["count"]), mu, nu))
-    return RoomState(train=train, history=history, stopped=str(arrays["stopped"]) or None)
+    return RoomState(
+        train=TrainState(gaussians=gaussians, moments=adam_state(np.asarray(arrays["count"]), mu, nu)),
+        step=int(arrays["step"]),
+        history=tuple(FitPoint(**row | {"step": int(row["step"]), "room": int(row["room"])}) for row in rows),
+        since=np.asarray(arrays["since"]),
+        exposure=arrays.get("exposure"),
+        residual=_record(Residual, "residual", arrays),
+        watch=_record(Watch, "watch", arrays),
+        stopped=str(arrays["stopped"]) or None,
+    )
+
+
+def _flat(prefix: str, record) -> dict[str, np.ndarray]:
+    """The fields of a record as arrays; those that are gaussians leaf by leaf."""
+    arrays = {}
+    for field in dataclasses.fields(record):
+        name, value = f"{prefix}.{field.name}", getattr(record, field.name)
+        arrays |= _flat(name, value) if isinstance(value, Gaussians) else {name: np.asarray(value)}
+    return arrays
+
+
+def _gaussians(prefix: str, arrays: Mapping[str, np.ndarray]) -> Gaussians:
+    return Gaussians(**{leaf: np.asarray(arrays[f"{prefix}.{leaf}"]) for leaf in _LEAVES})
+
+
+def _record(kind, prefix: str, arrays: Mapping[str, np.ndarray]):
+    """The record that `_flat` wrote, scalars as Python numbers; None if it wrote none."""
+    if not any(name.startswith(f"{prefix}.") for name in arrays):
+        return None
+    values = {}
+    for field in dataclasses.fields(kind):
+        name = f"{prefix}.{field.name}"
+        if field.type is Gaussians:
+            values[field.name] = _gaussians(name, arrays)
+        else:
+            value = np.asarray(arrays[name])
+            values[field.name] = value if value.ndim else value.item()
+    return kind(**values)

@@ -9,9 +9,13 @@ import jax.numpy as jnp
 import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
+from wm.splat.batch import Compiled, Device, SeenView, to_target
+from wm.splat.curve import FitPoint
 from wm.splat.frozen import join_columns, pad_columns, visible_columns
-from wm.splat.room_fit import Capacity, Device, FitPoint, RoomFit, SeenView, host, pad_gaussians, to_target, unpad_rows
-from wm.splat.step import project_view, start_state
+from wm.splat.padding import Capacity, host, pad_gaussians
+from wm.splat.room_fit import Interrupted, RoomFit
+from wm.splat.room_state import RoomState, initial_state
+from wm.splat.step import project_view, raster_for
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
@@ -30,6 +34,14 @@ class Fit:
     stopped: str | None  # why it ended early, in one sentence; None: it ran to its end
 
 
+class FitError(RuntimeError):
+    """A fit was ended by an exception, of `progress` for example, which is the cause of this; `fit` is what was reached."""
+
+    def __init__(self, message: str, fit: Fit) -> None:
+        super().__init__(message)
+        self.fit = fit
+
+
 def fit(
     gaussians: Gaussians,
     views: Sequence[TrainingView],
@@ -40,7 +52,7 @@ def fit(
     frozen: Gaussians | None = None,
     heldout: Sequence[TrainingView] = (),
     progress: Progress | None = None,
-    device: Device | None = None,
+    devices: Sequence[Device] | None = None,
 ) -> Fit:
     """Gaussians moved so that their renders agree with the views and their depth with the scaffold.
 
@@ -53,37 +65,51 @@ def fit(
         frozen: gaussians that are rendered too and not moved.
         heldout: views to measure the curve on; never trained on.
         progress: called after every step.
-        device: where to compute; JAX's default device if None.
+        devices: where to compute; JAX's default device if None. Several share the views of a batch, and change no byte.
 
-    Returns: the gaussians and the curve. A loss or gradient that is not finite ends it with the last good state and a reason.
-    Raises: ValueError without views.
+    Returns: the gaussians and the curve. Where a loss or gradient is not finite, or the loss blows up (watch.py), the fit ends
+        early with the last good state, or the best, and `stopped` names room, step, view and term; never NaN. A
+        KeyboardInterrupt ends it likewise.
+    Raises: ValueError without views, or if gaussians to start from are not finite. FitError from any other exception on the way.
     """
     if not views:
         raise ValueError("a fit needs at least one view")
-    raster = dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0)
-    device = device or jax.devices()[0]
+    raster = raster_for(settings, raster)
+    devices = list(devices or jax.devices()[:1])
     started = time.perf_counter()
-    behind = [] if frozen is None else [jax.device_put(pad_gaussians(frozen, len(frozen.opacity_logits)), device)]
-    shown = see_views([*views, *heldout], [behind] * (len(views) + len(heldout)), raster, device)
+    behind = [] if frozen is None else [jax.device_put(pad_gaussians(frozen, len(frozen.opacity_logits)), devices[0])]
+    shown = see_views([*views, *heldout], [behind] * (len(views) + len(heldout)), raster, devices[0])
     room_fit = RoomFit(
         views=shown[: len(views)],
         heldout=shown[len(views) :],
         settings=settings,
-        raster=raster,
+        compiled=Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=Capacity()),
         seed=seed_of(key),
         room=views[0].room,
-        capacity=Capacity(),
+        count=len(gaussians.opacity_logits),
+        rows=len(gaussians.opacity_logits),
+        devices=devices,
         clock=lambda: time.perf_counter() - started,
     )
-    n = len(gaussians.opacity_logits)
-    state = start_state(jax.device_put(pad_gaussians(gaussians, n), device))
 
     def report(done: int, info: dict) -> None:
         if progress is not None:
             progress(done, settings.steps, info)
 
-    state, history, stopped = room_fit.run(state, 0, settings.steps, report)
-    return Fit(gaussians=unpad_rows(state.gaussians, n), history=tuple(history), stopped=stopped)
+    start = initial_state(gaussians)
+    try:
+        return _result(room_fit.run(start, settings.steps, report))
+    except Interrupted as interrupted:
+        cause, reached = interrupted.__cause__, interrupted.state
+        where = f"room {room_fit.room}, step {reached.step}"
+        if isinstance(cause, KeyboardInterrupt):
+            return _result(dataclasses.replace(reached, stopped=f"{where}: interrupted"))
+        message = f"{where}: {type(cause).__name__}: {cause}"
+        raise FitError(message, _result(dataclasses.replace(reached, stopped=message))) from cause
+
+
+def _result(state: RoomState) -> Fit:
+    return Fit(gaussians=state.train.gaussians, history=state.history, stopped=state.stopped)
 
 
 def see_views(

@@ -1,89 +1,36 @@
-"""The loop over steps for one set of gaussians on one device: order of the views, plans, padding, held-out error.
+"""The loop over steps for one set of gaussians: batches, the watch over the loss, refinement, the curve.
 
-Tiers of work: per fit (views to the device, padding), per step (projection, plan on the host, train step), at `curve_points`
-steps (held-out renders). The plan of a step is made from the parameters it is used with, so nothing here depends on timing.
+Tiers of work: per fit (views to the device, padding), per step (batch.py, then one move), per `refine_every` steps (refine.py, on
+the host), at `curve_points` steps (held-out renders). The plan of a step is made from the parameters it is used with, so nothing
+here depends on timing. A state is replaced, never changed: whatever interrupts the loop leaves a whole one behind.
 """
 
-import contextlib
 import dataclasses
-import threading
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 import jax
 import numpy as np
 
-from wm.schema import FitSettings, RasterSettings
-from wm.splat.frozen import join_columns
+from wm.schema import FitSettings
+from wm.splat.batch import Compiled, Device, SeenView, ViewLoss, batch_at, batch_losses
+from wm.splat.curve import MEANS, FitPoint, curve_steps
+from wm.splat.exposure import move_exposure, no_exposure
 from wm.splat.metrics import depth_error, psnr
-from wm.splat.project import Projected
-from wm.splat.step import Rates, StepTerms, Target, TrainState, project_view, rasterize_view, rates_at, train_step
-from wm.splat.tiles import plan_tiles
-from wm.splat.training import TrainingView
+from wm.splat.padding import pad_gaussians, pad_rows, unpad_rows
+from wm.splat.refine import is_due, no_residual, observe, refine
+from wm.splat.room_state import NOTHING_SINCE, RoomState
+from wm.splat.step import Moving, Rates, TrainState, move, rates_at, start_state
+from wm.splat.trouble import TERMS, divergence, not_finite, weighted
+from wm.splat.watch import Watch, diverges, start_watch, watch_step, watch_visit
 from wm.types import Gaussians
 
-Device = Any
-"""A `jax.Device`, which is a variable to type checkers."""
 
-CULLED_LOGIT = -50.0
-"""Opacity logit of padding: far below any alpha cut, so that padding is projected, culled, and neither listed nor moved."""
+class Interrupted(Exception):
+    """Something ended the loop of steps, and is the cause of this; `state` is where it stood, between two steps."""
 
-HEADROOM = 3.0
-"""Room in a plan's capacity over what the first views need: gaussians grow while they are fitted."""
-
-
-@dataclasses.dataclass(frozen=True)
-class FitPoint:
-    """A fit at one step: means of the loss terms since the last point, and held-out error if there are such views."""
-
-    seconds: float  # wall-clock since the fit began
-    step: int  # steps of this room so far
-    room: int
-    loss: float
-    l1: float
-    dissimilarity: float  # mean 1 - SSIM
-    depth: float  # metres
-    psnr: float  # held-out, dB; NaN without held-out views
-    m_mae: float  # held-out, metres; NaN without held-out views or without depth
-
-
-class Capacity:
-    """How many plan entries the compiled steps have room for: shared by all fits of a scene, only ever grown (in steps of x1.5).
-
-    It bounds recompilation and changes no result: entries beyond a plan's own are padding.
-    """
-
-    def __init__(self) -> None:
-        self._entries: int | None = None
-        self._lock = threading.Lock()
-        self._compiled: set[tuple[int, ...]] = set()
-        self._compiling = threading.Lock()
-
-    @property
-    def entries(self) -> int | None:
-        return self._entries
-
-    def grow(self, entries: int) -> None:
-        with self._lock:
-            self._entries = max(self._entries or 0, entries)
-
-    @contextlib.contextmanager
-    def compiled(self, *shape: int) -> Iterator[None]:
-        """Around a step of a shape: the first of its kind is alone, so that threads do not compile the same step side by side."""
-        if shape in self._compiled:
-            yield
-            return
-        with self._compiling:
-            yield
-            self._compiled.add(shape)
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class SeenView:
-    """A view on the device, and the frozen gaussians as it sees them."""
-
-    target: Target
-    frozen: Projected | None  # NumPy
+    def __init__(self, state: RoomState, *, resumable: bool) -> None:
+        super().__init__(f"step {state.step}")
+        self.state, self.resumable = state, resumable
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -93,124 +40,157 @@ class RoomFit:
     views: Sequence[SeenView]
     heldout: Sequence[SeenView]
     settings: FitSettings
-    raster: RasterSettings  # `depth` already set from the weight
+    compiled: Compiled
     seed: tuple[int, ...]
     room: int
-    capacity: Capacity
+    count: int  # gaussians
+    rows: int  # and what they are padded to
+    devices: Sequence[Device]  # the state lies on the first; a batch is divided over all
     clock: Callable[[], float]  # seconds since the fit began
 
     def run(
-        self, state: TrainState, first: int, last: int, report: Callable[[int, dict], None]
-    ) -> tuple[TrainState, list[FitPoint], str | None]:
-        """Steps `first` to `last` (exclusive) of `settings.steps`; the state's buffers are used up.
+        self,
+        state: RoomState,
+        last: int,
+        report: Callable[[int, dict], None],
+        keep: Callable[[Callable[[], RoomState]], None] = lambda state: None,
+    ) -> RoomState:
+        """The state after the steps up to `last` (exclusive) of `settings.steps`, or after fewer and with a reason.
 
-        Returns: the state, the points of the curve that lie in this stretch, and why it stopped early (None: it did not).
+        Args:
+            state: where to go on, on the host.
+            last: one past the last step.
+            report: called after every step with its number and what is worth showing.
+            keep: called after every step with what gives the state on the host, from which the same bytes follow.
+
+        Raises: Interrupted, from whatever was raised on the way.
         """
-        points, since = [], []
-        marks = curve_steps(self.settings)
-        if first == 0 and 0 in marks:
-            points.append(self._point(state, 0, []))
-        for step in range(first, last):
-            seen = self.views[view_at(self.seed, step, len(self.views))]
-            state, terms = self._step(state, seen, rates_at(self.settings, step, self.settings.steps))
-            if not terms.finite:
-                loss = float(terms.loss)
-                return state, points, f"room {self.room}, step {step}: loss {loss} or gradient not finite; kept the state before"
-            since.append(terms)
-            report(step + 1, {"loss": float(terms.loss)})
-            if step + 1 in marks:
-                points.append(self._point(state, step + 1, since))
-                since = []
-        return state, points, None
+        state = self._begin(state)
+        try:
+            while state.step < last and state.stopped is None:
+                state = self._step(state)
+                if state.stopped is None:
+                    report(state.step, {"loss": float(state.since[-1][0])})
+                    state = self._measured(state)
+                    keep(lambda state=state: self._on_host(state))
+        except BaseException as error:
+            lost = any(leaf.is_deleted() for leaf in jax.tree.leaves(state.train))  # between giving buffers up and the result
+            whole = self._best(state) if lost else state
+            raise Interrupted(self._on_host(whole), resumable=not lost) from error
+        assert state.watch is not None
+        if state.stopped is None and diverges(state.watch, ended=True):
+            state = self._stopped(state, state.watch.bad_view, divergence(state.watch))
+        return dataclasses.replace(self._on_host(state), watch=None)
 
-    def _step(self, state: TrainState, seen: SeenView, rates: Rates) -> tuple[TrainState, StepTerms]:
-        camera = seen.target.camera
-        projected = join_columns(host(project_view(state.gaussians, camera, raster=self.raster)), seen.frozen)
-        plan = plan_with(projected, camera.width, camera.height, self.raster, self.capacity)
-        normals = self.settings.normal_weight > 0
-        with self.capacity.compiled(camera.width, camera.height, projected.opacity.shape[-1], len(plan.ids)):
-            state, terms = train_step(state, seen.target, seen.frozen, plan, rates, raster=self.raster, normals=normals)
-        return state, jax.device_get(terms)
+    def _begin(self, state: RoomState) -> RoomState:
+        """The state on the device, padded, with all that the settings ask for."""
+        exposed = self.settings.exposure and state.exposure is None
+        refined = self.settings.refine_every > 0 and state.residual is None
+        state = dataclasses.replace(
+            state,
+            train=self._on_device(state.train),
+            exposure=no_exposure(len(self.views)) if exposed else state.exposure,
+            residual=no_residual(self.count) if refined else state.residual,
+            watch=state.watch or start_watch(state.train.gaussians, state.step, len(self.views), len(TERMS)),
+        )
+        return self._measured(state)
 
-    def _point(self, state: TrainState, step: int, since: list[StepTerms]) -> FitPoint:
-        def mean(name: str) -> float:
-            return float(np.mean([getattr(terms, name) for terms in since])) if since else float("nan")
+    def _on_device(self, train: TrainState) -> TrainState:
+        padded = pad_rows(train, self.rows)
+        return jax.device_put(dataclasses.replace(padded, gaussians=pad_gaussians(train.gaussians, self.rows)), self.devices[0])
 
-        psnr, m_mae = self._heldout_error(state.gaussians)
-        terms = {name: mean(name) for name in ("loss", "l1", "dissimilarity", "depth")}
-        return FitPoint(seconds=self.clock(), step=step, room=self.room, **terms, psnr=psnr, m_mae=m_mae)
+    def _on_host(self, state: RoomState) -> RoomState:
+        return dataclasses.replace(state, train=unpad_rows(state.train, self.count))
 
-    def _heldout_error(self, gaussians: Gaussians) -> tuple[float, float]:
-        errors = [view_error(gaussians, seen, self.raster, self.capacity) for seen in self.heldout]
-        psnr, m_mae = np.mean(errors, axis=0) if errors else (float("nan"), float("nan"))
-        return float(psnr), float(m_mae)
+    def _step(self, state: RoomState) -> RoomState:
+        rates = rates_at(self.settings, state.step, self.settings.steps)
+        batch = batch_at(self.seed, state.step, self.settings.batch, len(self.views))
+        moving = [self._moving(state, state.train.gaussians, view) for view in batch]
+        losses = batch_losses(self.compiled, self.views, batch, moving, rates, self.devices)
+        for loss in losses:
+            reason = not_finite(loss.terms, self.views[loss.view].target)
+            if reason:
+                return self._stopped(state, loss.view, reason)
+        state = dataclasses.replace(state, watch=self._watched(state, losses, rates))
+        assert state.watch is not None
+        if diverges(state.watch):
+            return self._stopped(state, state.watch.bad_view, divergence(state.watch))
+        return self._refined(self._moved(state, losses, rates))
+
+    def _moving(self, state: RoomState, gaussians: Gaussians, view: int) -> Moving:
+        """What the gradient of a view is by: these gaussians, and what else the settings ask for."""
+        return Moving(
+            gaussians=gaussians,
+            exposure=None if state.exposure is None else state.exposure[view],
+            shift=None if state.residual is None else np.zeros((2, self.rows), np.float32),
+        )
+
+    def _watched(self, state: RoomState, losses: Sequence[ViewLoss], rates: Rates) -> Watch:
+        watch = state.watch
+        assert watch is not None
+        for loss in losses:
+
+            def measure(view: int = loss.view, best: Gaussians = watch.best) -> np.ndarray:
+                moving = self._moving(state, pad_gaussians(best, self.rows), view)
+                return weighted(self.compiled.loss(view, self.views[view], moving, rates, self.devices[0]).terms, self.settings)
+
+            watch = watch_visit(watch, loss.view, weighted(loss.terms, self.settings), measure)
+        return watch
+
+    def _moved(self, state: RoomState, losses: Sequence[ViewLoss], rates: Rates) -> RoomState:
+        exposure, residual = state.exposure, state.residual
+        for loss in losses:
+            if exposure is not None:
+                exposure = move_exposure(exposure, loss.view, np.asarray(loss.gradient.exposure), rates.exposure)
+            if residual is not None:
+                residual = observe(residual, np.asarray(loss.gradient.shift)[:, : self.count])
+        means = np.mean([[getattr(loss.terms, name) for name in MEANS] for loss in losses], axis=0)
+        train, step = move(state.train, [loss.gradient.gaussians for loss in losses], rates.learning), state.step + 1
+        assert state.watch is not None
+        return dataclasses.replace(
+            state,
+            train=train,
+            step=step,
+            exposure=exposure,
+            residual=residual,
+            since=np.append(state.since, [means], axis=0),
+            watch=watch_step(state.watch, step, lambda: unpad_rows(train.gaussians, self.count)),
+        )
+
+    def _refined(self, state: RoomState) -> RoomState:
+        if state.residual is None or not is_due(self.settings, state.step):
+            return state
+        train = refine(unpad_rows(state.train, self.count), state.residual, self.settings)
+        return dataclasses.replace(state, train=self._on_device(train), residual=no_residual(self.count))
+
+    def _stopped(self, state: RoomState, view: int, reason: str) -> RoomState:
+        """The last good state with the reason: the best one if the last visits were bad, else this one."""
+        assert state.watch is not None
+        kept = self._best(state) if state.watch.recent.any() else state
+        where = f"room {self.room}, step {state.step}, view {view} of {len(self.views)}"
+        return dataclasses.replace(kept, stopped=f"{where}: {reason}; kept the state of step {kept.step}")
+
+    def _best(self, state: RoomState) -> RoomState:
+        assert state.watch is not None
+        train = jax.device_put(start_state(pad_gaussians(state.watch.best, self.rows)), self.devices[0])
+        return dataclasses.replace(state, train=train, step=state.watch.best_step)
+
+    def _measured(self, state: RoomState) -> RoomState:
+        """The state with one more point of the curve, if one is due."""
+        done = state.history[-1].step if state.history else -1
+        if done == state.step or state.step not in curve_steps(self.settings):
+            return state
+        means = state.since.mean(axis=0) if len(state.since) else np.full(len(MEANS), np.nan)
+        errors = [view_error(self.compiled, state.train.gaussians, seen) for seen in self.heldout]
+        heldout = np.mean(errors, axis=0) if errors else np.full(2, np.nan)
+        values = dict(zip((*MEANS, "psnr", "m_mae"), map(float, (*means, *heldout))))
+        point = FitPoint(seconds=self.clock(), step=state.step, room=self.room, **values)
+        return dataclasses.replace(state, history=(*state.history, point), since=NOTHING_SINCE)
 
 
-def view_error(gaussians: Gaussians, seen: SeenView, raster: RasterSettings, capacity: Capacity) -> tuple[float, float]:
+def view_error(compiled: Compiled, gaussians: Gaussians, seen: SeenView) -> tuple[float, float]:
     """PSNR in dB over the usable pixels of a view, and mean |depth - scaffold| in metres over those where the scaffold is hit."""
-    camera = seen.target.camera
-    projected = join_columns(host(project_view(gaussians, camera, raster=raster)), seen.frozen)
-    plan = plan_with(projected, camera.width, camera.height, raster, capacity)
-    render = rasterize_view(projected, plan, width=camera.width, height=camera.height, raster=raster)
-    rgb, depth = np.asarray(render.rgb), np.asarray(render.depth)
+    render = compiled.render(gaussians, seen)
     mask, scaffold = np.asarray(seen.target.mask), np.asarray(seen.target.depth)
-    m_mae = depth_error(depth, scaffold, mask).mae if raster.depth else float("nan")
-    return psnr(rgb, np.asarray(seen.target.rgb) / np.float32(255), mask), m_mae
-
-
-def host(tree):
-    """The arrays of a record on the host."""
-    return jax.tree.map(np.asarray, tree)
-
-
-def plan_with(projected, width: int, height: int, raster: RasterSettings, capacity: Capacity):
-    """The plan of one image, at the shared capacity."""
-    room = capacity.entries
-    plan = plan_tiles(projected, width, height, raster, capacity=room)
-    if room is None:
-        plan = plan_tiles(projected, width, height, raster, capacity=int(len(plan.ids) * HEADROOM))
-    capacity.grow(len(plan.ids))
-    return plan
-
-
-def curve_steps(settings: FitSettings) -> list[int]:
-    """Steps after which a fit is measured: `curve_points` of them from the start to the end, denser early on."""
-    if settings.curve_points < 1:
-        return []
-    share = np.linspace(0, 1, settings.curve_points) ** 2 if settings.curve_points > 1 else np.ones(1)
-    return sorted({round(s * settings.steps) for s in share})
-
-
-def view_at(seed: tuple[int, ...], step: int, views: int) -> int:
-    """Which view a step is taken toward: every epoch is its own permutation, a function of the seed alone."""
-    epoch, place = divmod(step, views)
-    return int(np.random.default_rng(np.random.SeedSequence([*seed, epoch])).permutation(views)[place])
-
-
-def to_target(view: TrainingView, device: Device) -> Target:
-    """A training view on a device; what is not NumPy float32 becomes it."""
-    camera = jax.tree.map(lambda x: np.asarray(x, np.float32), view.camera)
-    target = Target(camera=camera, rgb=view.rgb, depth=np.asarray(view.depth, np.float32), mask=view.mask)
-    return jax.device_put(target, device)
-
-
-def pad_gaussians(gaussians: Gaussians, size: int) -> Gaussians:
-    """Gaussians in fresh NumPy float32 arrays of `size` rows; those added are culled wherever they are seen from."""
-    padded = pad_rows(gaussians, size)
-    padded.opacity_logits[len(gaussians.opacity_logits) :] = CULLED_LOGIT
-    return padded
-
-
-def pad_rows(record, size: int):
-    """A record of arrays as fresh NumPy float32 arrays with `size` rows, those added zero; scalars are left alone."""
-
-    def pad(x):
-        x = np.asarray(x)
-        return np.concatenate([x.astype(np.float32), np.zeros((size - len(x), *x.shape[1:]), np.float32)]) if x.ndim else x
-
-    return jax.tree.map(pad, record)
-
-
-def unpad_rows(record, size: int):
-    """The first `size` rows of every array of a record, as fresh NumPy arrays; scalars are left alone."""
-    return jax.tree.map(lambda x: np.array(x)[:size].copy() if np.ndim(x) else np.array(x), record)
+    m_mae = depth_error(render.depth, scaffold, mask).mae if compiled.raster.depth else float("nan")
+    return psnr(render.rgb, np.asarray(seen.target.rgb) / np.float32(255), mask), m_mae

@@ -17,9 +17,14 @@ import jax
 import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
-from wm.splat.checkpoint import RoomState, from_arrays, initial_state, to_arrays
+from wm.splat.batch import Compiled, Device
+from wm.splat.checkpoint import from_arrays, to_arrays
+from wm.splat.curve import FitPoint
 from wm.splat.fit import DEFAULT_RASTER, Progress, see_views, seed_of
-from wm.splat.room_fit import Capacity, Device, FitPoint, RoomFit, pad_gaussians, pad_rows, unpad_rows
+from wm.splat.padding import Capacity, pad_gaussians
+from wm.splat.room_fit import Interrupted, RoomFit
+from wm.splat.room_state import RoomState, initial_state
+from wm.splat.step import raster_for
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
@@ -29,6 +34,8 @@ them, and what padding adds to a step is little."""
 
 RoomViews = Callable[[int], Sequence[TrainingView]]
 Arrays = Mapping[str, np.ndarray]
+Load = Callable[[int, int], Arrays | None]
+Store = Callable[[int, int, Arrays], None]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -48,8 +55,9 @@ def fit_scene(
     raster: RasterSettings = DEFAULT_RASTER,
     key: jax.Array,
     heldout: RoomViews = lambda room: (),
-    load: Callable[[int, int], Arrays | None] = lambda round_, room: None,
-    store: Callable[[int, int, Arrays], None] = lambda round_, room, arrays: None,
+    load: Load = lambda round_, room: None,
+    store: Store = lambda round_, room, arrays: None,
+    checkpoint_seconds: float = 60.0,
     progress: Progress | None = None,
     devices: Sequence[Device] | None = None,
 ) -> SceneFit:
@@ -59,25 +67,29 @@ def fit_scene(
         gaussians: where each room starts, by room index; not changed. A room may have none.
         views: the training views of a room, asked for in every round (so they may come from disk). `TrainingView.sees` names the
             other rooms whose gaussians a view is rendered with. A room without views keeps its gaussians.
-        settings: `steps` per room in all, divided over `rounds`; a checkpoint lies at the end of each round.
+        settings: `steps` per room in all, divided over `rounds`.
         raster: the rasterizer's constants; `depth` is set here.
         key: a JAX key. Same arguments and key, same bytes, on any number of devices.
         heldout: a few views of a room to measure its curve on; never trained on.
-        load, store: checkpoints by (round, room): what was stored is not computed again, and ends in the same bytes. `store` is
-            called from the threads of the devices, for one room at a time each.
+        load, store: checkpoints by (round, room), the last of each counts: what was stored is not computed again, and ends in the
+            same bytes. `store` is called from the threads of the devices, for one room at a time each.
+        checkpoint_seconds: a room is stored when this long has passed since it began or was stored, and when its round ends.
         progress: called after every step of any room, one call at a time.
         devices: one room at a time each; all CPU devices if None (`jax_num_cpu_devices` says how many), or all accelerators.
 
-    Returns: the gaussians, the curves and what stopped early. Errors of a room (of `views`, say) are raised once all rooms ended.
+    Returns: the gaussians, the curves and what stopped early.
+    Raises: the error of a room (of `views`, say) once all rooms ended their round. A KeyboardInterrupt as soon as every room
+        under way has ended its step; all that was reached is stored.
     """
     scene = _Scene(
         states=[initial_state(start) for start in gaussians],
         views=views,
         heldout=heldout,
         settings=settings,
-        raster=dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0),
+        raster=raster_for(settings, raster),
         seed=seed_of(key),
         report=_Report(len(gaussians) * settings.steps, progress),
+        checkpoints=_Checkpoints(load, store, checkpoint_seconds),
     )
     devices = list(devices or jax.devices())
     free = queue.SimpleQueue()
@@ -85,24 +97,25 @@ def fit_scene(
         free.put(device)
 
     def one_room(round_: int, room: int) -> RoomState:
-        stored = load(round_, room)
-        if stored is not None:
-            first, last = scene.stretch(round_)
-            scene.report.skip(last - first)
-            return from_arrays(stored)
+        state = scene.stored(round_, room)
+        if state is not None and scene.has_ended(state, round_):
+            return state
         device = free.get()
         try:
-            state = scene.fit_room(round_, room, device)
+            return scene.fit_room(round_, room, state or scene.states[room], device)
         finally:
             free.put(device)
-        store(round_, room, to_arrays(state))
-        return state
 
     largest_first = sorted(range(len(gaussians)), key=lambda room: -len(gaussians[room].opacity_logits))
     with ThreadPoolExecutor(max_workers=len(devices), thread_name_prefix="wm-fit") as pool:
         for round_ in range(settings.rounds):
             running = {room: pool.submit(one_room, round_, room) for room in largest_first}
-            scene.states = [running[room].result() for room in range(len(gaussians))]
+            try:
+                scene.states = [running[room].result() for room in range(len(gaussians))]
+            except KeyboardInterrupt:
+                scene.report.halt()
+                pool.shutdown(cancel_futures=True)
+                raise
     return SceneFit(
         gaussians=tuple(state.train.gaussians for state in scene.states),
         history=tuple(point for state in scene.states for point in state.history),
@@ -110,17 +123,28 @@ def fit_scene(
     )
 
 
+class _Halted(Exception):
+    """Raised in the rooms under way when the fit of the scene is interrupted."""
+
+
 class _Report:
     """Steps done over all rooms, told to `progress` one call at a time."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
         self._done, self._total, self._progress, self._lock = 0, total, progress, threading.Lock()
+        self._halted = False
 
     def step(self, info: dict) -> None:
         self._add(1, info)
+        if self._halted:
+            raise _Halted
 
     def skip(self, steps: int) -> None:
         self._add(steps, {})
+
+    def halt(self) -> None:
+        """From now on every room ends at its next step."""
+        self._halted = True
 
     def _add(self, steps: int, info: dict) -> None:
         with self._lock:
@@ -129,18 +153,39 @@ class _Report:
                 self._progress(self._done, self._total, info)
 
 
+@dataclasses.dataclass(frozen=True)
+class _Checkpoints:
+    """Where the states of rooms are kept, and how often."""
+
+    load: Load
+    store: Store
+    seconds: float
+
+    def keeper(self, round_: int, room: int) -> Callable[[Callable[[], RoomState]], None]:
+        """What to call after every step of a room: stores its state when it is time."""
+        last = time.perf_counter()
+
+        def keep(state: Callable[[], RoomState]) -> None:
+            nonlocal last
+            if time.perf_counter() - last >= self.seconds:
+                self.store(round_, room, to_arrays(state()))
+                last = time.perf_counter()
+
+        return keep
+
+
 class _Scene:
     """The states of all rooms as they stood when the round began, and all that the fit of one of them reads."""
 
-    def __init__(self, *, states, views, heldout, settings, raster, seed, report) -> None:
+    def __init__(self, *, states, views, heldout, settings, raster, seed, report, checkpoints) -> None:
         self.states: list[RoomState] = states
         self.views: RoomViews = views
         self.heldout: RoomViews = heldout
         self.settings: FitSettings = settings
-        self.raster: RasterSettings = raster
         self.seed: tuple[int, ...] = seed
         self.report: _Report = report
-        self.capacity = Capacity()
+        self.checkpoints: _Checkpoints = checkpoints
+        self.compiled = Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=Capacity())
         self.started = time.perf_counter()
         self.largest = max((self._count(room) for room in range(len(states))), default=0)
 
@@ -149,31 +194,54 @@ class _Scene:
         steps, rounds = self.settings.steps, self.settings.rounds
         return steps * round_ // rounds, steps * (round_ + 1) // rounds
 
-    def fit_room(self, round_: int, room: int, device: Device) -> RoomState:
-        """The state of a room after a round."""
-        state, (first, last) = self.states[room], self.stretch(round_)
+    def stored(self, round_: int, room: int) -> RoomState | None:
+        """The checkpoint of a room, whose steps count as done."""
+        arrays = self.checkpoints.load(round_, room)
+        if arrays is None:
+            return None
+        state, (first, last) = from_arrays(arrays), self.stretch(round_)
+        self.report.skip((last if self.has_ended(state, round_) else state.step) - first)
+        return state
+
+    def has_ended(self, state: RoomState, round_: int) -> bool:
+        """Whether a checkpoint is that of the end of a round."""
+        return state.stopped is not None or state.step >= self.stretch(round_)[1]
+
+    def fit_room(self, round_: int, room: int, state: RoomState, device: Device) -> RoomState:
+        """The state of a room after a round, which is stored, as is what an exception leaves."""
+        _, last = self.stretch(round_)
+        checkpoints = self.checkpoints
+        try:
+            state = self._fitted(room, state, last, device, checkpoints.keeper(round_, room))
+        except Interrupted as interrupted:
+            if interrupted.resumable:
+                checkpoints.store(round_, room, to_arrays(interrupted.state))
+            raise interrupted.__cause__ or interrupted from None
+        checkpoints.store(round_, room, to_arrays(state))
+        return state
+
+    def _fitted(self, room: int, state: RoomState, last: int, device: Device, keep) -> RoomState:
         views = list(self.views(room))
         if state.stopped or not views or self._count(room) == 0:
-            self.report.skip(last - first)
-            return state
+            self.report.skip(last - state.step if state.stopped is None else 0)
+            return dataclasses.replace(state, step=last)
         heldout = list(self.heldout(room))
         all_views = [*views, *heldout]
-        seen = see_views(all_views, self._neighbours(all_views, room, device), self.raster, device, self._columns)
+        neighbours = self._neighbours(all_views, room, device)
+        seen = see_views(all_views, neighbours, self.compiled.raster, device, self._columns)
         room_fit = RoomFit(
             views=seen[: len(views)],
             heldout=seen[len(views) :],
             settings=self.settings,
-            raster=self.raster,
+            compiled=self.compiled,
             seed=(*self.seed, room),
             room=room,
-            capacity=self.capacity,
+            count=self._count(room),
+            rows=self._rung(room),
+            devices=[device],
             clock=lambda: time.perf_counter() - self.started,
         )
-        train = pad_rows(state.train, self._rung(room))
-        culled = pad_gaussians(state.train.gaussians, self._rung(room))
-        train = jax.device_put(dataclasses.replace(train, gaussians=culled), device)
-        train, points, stopped = room_fit.run(train, first, last, lambda done, info: self.report.step(info | {"room": room}))
-        return RoomState(train=unpad_rows(train, self._count(room)), history=(*state.history, *points), stopped=stopped)
+        return room_fit.run(state, last, lambda done, info: self.report.step(info | {"room": room}), keep)
 
     def _neighbours(self, views: Sequence[TrainingView], room: int, device: Device) -> list[list[Gaussians]]:
         """What each view may see of other rooms, on the device, each room once."""

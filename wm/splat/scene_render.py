@@ -9,7 +9,7 @@ import numpy as np
 
 from wm.schema import RasterSettings
 from wm.splat.frozen import join_columns, pad_columns, visible_columns
-from wm.splat.room_fit import Capacity, host, pad_gaussians, plan_with
+from wm.splat.padding import Capacity, host, pad_gaussians, plan_with
 from wm.splat.step import project_view, rasterize_view
 from wm.types import Camera, Gaussians, Render
 

@@ -1,11 +1,12 @@
-"""One step of the fit: render a view, compare, move the gaussians.
+"""One step of the fit: render a view, compare (`view_gradient`), then move the gaussians (`move`).
 
-The step is one jitted function per (gaussian, frozen and plan capacity, image size); everything that changes from step to step or
-from fit to fit is an argument. A step whose loss or gradient is not finite changes nothing and says so.
+The first is compiled per (gaussian, frozen and plan capacity, image size), the second per number of gaussians and of views a
+step; everything that changes from step to step or from fit to fit is an argument.
 """
 
 import dataclasses
 import functools
+from collections.abc import Sequence
 from typing import Any
 
 import jax
@@ -15,6 +16,7 @@ import optax
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.composite import rasterize
+from wm.splat.exposure import expose
 from wm.splat.frozen import join_columns
 from wm.splat.losses import depth_loss, normal_loss, photometric_terms
 from wm.splat.project import Projected, project
@@ -46,10 +48,21 @@ class Target:
 
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
+class Moving:
+    """What a view's loss is differentiated by, and the derivative: records of the same shape."""
+
+    gaussians: Any
+    exposure: Any = None  # [2, 3] of exposure.py; None: the render is compared as it is
+    shift: Any = None  # [2, n] pixels added to every centre, which is 0: its derivative tells where the residual pulls
+
+
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
 class Rates:
     """What a step is steered by: learning rates by leaf (already decayed) and the weights of the loss. Scalars, traced."""
 
     learning: Any  # Gaussians of floats
+    exposure: Any
     ssim: Any
     depth: Any
     normal: Any
@@ -58,14 +71,19 @@ class Rates:
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
 class StepTerms:
-    """The loss of one step and its terms, and whether it and its gradient were finite."""
+    """The loss of one view and its terms before a step, and which parts of its gradient were finite."""
 
     loss: Any
     l1: Any
     dissimilarity: Any  # mean 1 - SSIM
     depth: Any  # metres
     normal: Any  # mean 1 - cosine
-    finite: Any
+    finite: Any  # Moving of bool
+
+
+def raster_for(settings: FitSettings, raster: RasterSettings) -> RasterSettings:
+    """The rasterizer's constants for a fit: depth is rendered if, and only if, a term of its loss reads it."""
+    return dataclasses.replace(raster, depth=settings.depth_weight > 0 or settings.normal_weight > 0)
 
 
 def start_state(gaussians: Gaussians) -> TrainState:
@@ -89,7 +107,13 @@ def rates_at(settings: FitSettings, step: int, steps: int) -> Rates:
         opacity_logits=settings.lr_opacities * decay,
         sh=settings.lr_sh * decay,
     )
-    return Rates(learning=learning, ssim=settings.ssim_weight, depth=settings.depth_weight, normal=settings.normal_weight)
+    return Rates(
+        learning=learning,
+        exposure=settings.lr_exposure * decay,
+        ssim=settings.ssim_weight,
+        depth=settings.depth_weight,
+        normal=settings.normal_weight,
+    )
 
 
 @functools.partial(jax.jit, static_argnames="raster")
@@ -104,9 +128,9 @@ def rasterize_view(projected: Projected, plan: TilePlan, *, width: int, height: 
     return rasterize(projected, plan, width, height, raster)
 
 
-@functools.partial(jax.jit, static_argnames=("raster", "normals"), donate_argnums=0)
-def train_step(
-    state: TrainState,
+@functools.partial(jax.jit, static_argnames=("raster", "normals"))
+def view_gradient(
+    moving: Moving,
     target: Target,
     frozen: Projected | None,
     plan: TilePlan,
@@ -114,24 +138,27 @@ def train_step(
     *,
     raster: RasterSettings,
     normals: bool,
-) -> tuple[TrainState, StepTerms]:
-    """The state after one step toward one view, and the loss before it; the state's buffers are used up.
+) -> tuple[StepTerms, Moving]:
+    """The loss of one view and its gradient.
 
     Args:
-        state: what moves.
+        moving: what the gradient is by. What is None is neither computed nor compiled.
         target: the view.
         frozen: other gaussians as this view sees them: rendered, not moved.
-        plan: of the projections of the state's gaussians and of the frozen ones, in that order.
-        rates: of this step.
+        plan: of the projections of the gaussians and of the frozen ones, in that order.
+        rates: of this step; the weights are read here.
         raster: without `depth` the loss has no depth term.
         normals: whether it has a term of normals, which needs depth.
     """
 
-    def objective(gaussians: Gaussians):
+    def objective(moving: Moving):
         camera = target.camera
-        projected = join_columns(project(gaussians, camera, raster), frozen)
-        render = rasterize(projected, plan, camera.width, camera.height, raster)
-        l1, dissimilarity = photometric_terms(render.rgb, target.rgb.astype(jnp.float32) / 255, target.mask)
+        own = project(moving.gaussians, camera, raster)
+        if moving.shift is not None:
+            own = dataclasses.replace(own, mean2d=own.mean2d + moving.shift)
+        render = rasterize(join_columns(own, frozen), plan, camera.width, camera.height, raster)
+        rgb = render.rgb if moving.exposure is None else expose(render.rgb, moving.exposure)
+        l1, dissimilarity = photometric_terms(rgb, target.rgb.astype(jnp.float32) / 255, target.mask)
         depth = depth_loss(render.depth, target.depth, target.mask) if raster.depth else jnp.float32(0)
         normal = jnp.float32(0)
         if raster.depth and normals:
@@ -139,11 +166,22 @@ def train_step(
         loss = (1 - rates.ssim) * l1 + rates.ssim * dissimilarity + rates.depth * depth + rates.normal * normal
         return loss, (l1, dissimilarity, depth, normal)
 
-    (loss, (l1, dissimilarity, depth, normal)), gradient = jax.value_and_grad(objective, has_aux=True)(state.gaussians)
-    finite = functools.reduce(jnp.logical_and, [jnp.isfinite(leaf).all() for leaf in jax.tree.leaves((loss, gradient))])
-    updates, moments = _adam.update(gradient, state.moments)
-    moved = jax.tree.map(lambda x, u, rate: x - rate * u, state.gaussians, updates, rates.learning)
-    moved = TrainState(gaussians=moved, moments=moments)
-    kept = jax.tree.map(lambda new, old: jnp.where(finite, new, old), moved, state)
+    (loss, (l1, dissimilarity, depth, normal)), gradient = jax.value_and_grad(objective, has_aux=True)(moving)
+    finite = jax.tree.map(lambda leaf: jnp.isfinite(leaf).all(), gradient)
     terms = StepTerms(loss=loss, l1=l1, dissimilarity=dissimilarity, depth=depth, normal=normal, finite=finite)
-    return kept, terms
+    return terms, gradient
+
+
+@functools.partial(jax.jit, donate_argnums=0)
+def move(state: TrainState, gradients: Sequence[Gaussians], learning: Gaussians) -> TrainState:
+    """The state after one step along the mean of finite gradients; the state's buffers are used up.
+
+    Args:
+        state: what moves.
+        gradients: one for each view of the batch, on the state's device.
+        learning: rates by leaf.
+    """
+    gradient = jax.tree.map(lambda *leaves: sum(leaves[1:], leaves[0]) / len(leaves), *gradients)
+    updates, moments = _adam.update(gradient, state.moments)
+    moved = jax.tree.map(lambda x, u, rate: x - rate * u, state.gaussians, updates, learning)
+    return TrainState(gaussians=moved, moments=moments)

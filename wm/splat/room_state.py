@@ -1,0 +1,42 @@
+"""Where the fit of a room stands: all that it needs to go on, so that stopping and going on changes no byte."""
+
+import dataclasses
+
+import numpy as np
+
+from wm.splat.curve import MEANS, FitPoint
+from wm.splat.padding import pad_rows, unpad_rows
+from wm.splat.refine import Residual
+from wm.splat.step import TrainState, start_state
+from wm.splat.watch import Watch
+from wm.types import Gaussians
+
+NOTHING_SINCE = np.zeros((0, len(MEANS)))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class RoomState:
+    """A room after some steps. Between runs everything is on the host and nothing is padded."""
+
+    train: TrainState
+    step: int = 0  # steps done
+    history: tuple[FitPoint, ...] = ()
+    since: np.ndarray = dataclasses.field(default_factory=lambda: NOTHING_SINCE)  # [k, means] of each step since the last point
+    exposure: np.ndarray | None = None  # [views, 2, 3] of exposure.py, once it is used
+    residual: Residual | None = None  # since the last refinement, once there is one to come
+    watch: Watch | None = None  # None between rounds
+    stopped: str | None = None  # why it will not go on, in one sentence
+
+
+def initial_state(gaussians: Gaussians) -> RoomState:
+    """The state of a room before its first step.
+
+    Raises: ValueError saying how many gaussians are not finite.
+    """
+    n = len(gaussians.opacity_logits)
+    gaussians = pad_rows(gaussians, n)
+    leaves = [np.asarray(leaf).reshape(n, -1) for leaf in vars(gaussians).values()]
+    wrong = ~np.isfinite(np.concatenate(leaves, axis=1)).all(axis=1)
+    if wrong.any():
+        raise ValueError(f"{wrong.sum()} of {n} gaussians to start from are not finite, the first at {int(wrong.argmax())}")
+    return RoomState(train=unpad_rows(start_state(gaussians), n))
