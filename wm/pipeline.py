@@ -17,8 +17,9 @@ from wm.schema import RunConfig
 from wm.stages.evaluation import METRICS, evaluate
 from wm.stages.heldout import render_heldout
 from wm.stages.job import TIMINGS, Job
-from wm.stages.painting import paint
+from wm.stages.painting import is_painted, paint
 from wm.stages.reconstruction import reconstruct
+from wm.stages.rehearsal import rehearsed
 from wm.stages.reporting import REPORT, report
 from wm.stages.scene import build_scene
 from wm.synth.backends import make_backend
@@ -52,9 +53,10 @@ def run(config: RunConfig, folder: pathlib.Path) -> dict:
         scene = build_scene(job)
         image = make_backend("image", config.image, scene.context)
         depth = make_backend("depth", config.depth, scene.context)
-        painted = paint(job, scene, image, depth)
-        heldout = render_heldout(job, scene, image)
-        result = reconstruct(job, scene, painted, heldout)
+        with rehearsed(job, scene, needed=not is_painted(job, scene)) as capacity:
+            painted = paint(job, scene, image, depth)
+            heldout = render_heldout(job, scene, image)
+        result = reconstruct(job, scene, painted, heldout, capacity)
         metrics = evaluate(job, scene, painted, result, heldout)
         metrics = report(job, scene, painted, result, metrics)
         print(_summary(folder, job, metrics))

@@ -1,6 +1,7 @@
 """Where the fit of a room stands: all that it needs to go on, so that stopping and going on changes no byte."""
 
 import dataclasses
+import math
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def initial_state(gaussians: Gaussians) -> RoomState:
     """
     n = len(gaussians.opacity_logits)
     gaussians = pad_rows(gaussians, n)
-    leaves = [np.asarray(leaf).reshape(n, -1) for leaf in vars(gaussians).values()]
+    leaves = [np.asarray(leaf).reshape(n, math.prod(np.shape(leaf)[1:])) for leaf in vars(gaussians).values()]
     wrong = ~np.isfinite(np.concatenate(leaves, axis=1)).all(axis=1)
     if wrong.any():
         raise ValueError(f"{wrong.sum()} of {n} gaussians to start from are not finite, the first at {int(wrong.argmax())}")

@@ -59,6 +59,7 @@ def fit_scene(
     store: Store = lambda round_, room, arrays: None,
     checkpoint_seconds: float = 60.0,
     progress: Progress | None = None,
+    capacity: Capacity | None = None,
     devices: Sequence[Device] | None = None,
 ) -> SceneFit:
     """The gaussians of every room, fitted to its views.
@@ -75,6 +76,7 @@ def fit_scene(
             same bytes. `store` is called from the threads of the devices, for one room at a time each.
         checkpoint_seconds: a room is stored when this long has passed since it began or was stored, and when its round ends.
         progress: called after every step of any room, one call at a time.
+        capacity: of an earlier fit of the same shapes, to share what was compiled for it; None: a new one.
         devices: one room at a time each; all CPU devices if None (`jax_num_cpu_devices` says how many), or all accelerators.
 
     Returns: the gaussians, the curves and what stopped early.
@@ -90,6 +92,7 @@ def fit_scene(
         seed=seed_of(key),
         report=_Report(len(gaussians) * settings.steps, progress),
         checkpoints=_Checkpoints(load, store, checkpoint_seconds),
+        capacity=capacity or Capacity(),
     )
     devices = list(devices or jax.devices())
     free = queue.SimpleQueue()
@@ -177,7 +180,7 @@ class _Checkpoints:
 class _Scene:
     """The states of all rooms as they stood when the round began, and all that the fit of one of them reads."""
 
-    def __init__(self, *, states, views, heldout, settings, raster, seed, report, checkpoints) -> None:
+    def __init__(self, *, states, views, heldout, settings, raster, seed, report, checkpoints, capacity) -> None:
         self.states: list[RoomState] = states
         self.views: RoomViews = views
         self.heldout: RoomViews = heldout
@@ -185,7 +188,7 @@ class _Scene:
         self.seed: tuple[int, ...] = seed
         self.report: _Report = report
         self.checkpoints: _Checkpoints = checkpoints
-        self.compiled = Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=Capacity())
+        self.compiled = Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=capacity)
         self.started = time.perf_counter()
         self.largest = max((self._count(room) for room in range(len(states))), default=0)
 

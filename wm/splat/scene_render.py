@@ -23,14 +23,23 @@ class SceneRenderer:
     Padded sizes only grow, so a walk through a scene compiles a handful of times.
     """
 
-    def __init__(self, rooms: Sequence[Gaussians], raster: RasterSettings, *, device: Any = None):
-        """`rooms`: the gaussians of each room, on the host. `device`: the jax.Device that renders, JAX's default if None."""
+    def __init__(
+        self, rooms: Sequence[Gaussians], raster: RasterSettings, *, capacity: Capacity | None = None, device: Any = None
+    ):
+        """What renders, ready.
+
+        Args:
+          rooms: the gaussians of each room, on the host.
+          raster: the rasterizer's constants.
+          capacity: of the fit that they come from: images of its size are then rendered by what it compiled.
+          device: the jax.Device that renders, JAX's default if None.
+        """
         largest = max((len(room.opacity_logits) for room in rooms), default=0)
         self._device = device or jax.devices()[0]
         self._rooms = [jax.device_put(pad_gaussians(room, largest), self._device) if largest else None for room in rooms]
         self._raster = raster
-        self._capacity = Capacity()
-        self._columns = 1
+        self._capacity = capacity or Capacity()
+        self._columns = largest if len(rooms) == 1 else 2 * largest  # as the fit has them
         self._growing = threading.Lock()
 
     def render(self, camera: Camera, rooms: Sequence[int], scaffold_depth: np.ndarray | None = None) -> Render:

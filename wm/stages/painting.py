@@ -38,13 +38,28 @@ def paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> P
         return _paint(job, scene, image, depth)
 
 
-def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
+def is_painted(job: Job, scene: Scene) -> bool:
+    """Whether the run folder holds every view and the scaffold with their texture."""
+    key = paint_key(job, scene)
+    return all(job.folder.has(name, key) for name in ("paint", *map(_entry, scene.views)))
+
+
+def paint_key(job: Job, scene: Scene) -> str:
+    """The key of all that painting leaves."""
     config = job.config
-    settings = PaintSettings(texture=config.texture, condition=config.condition, verify=config.verify)
     shown = (config.cameras, config.texture, config.condition, config.verify, config.image, config.depth)
-    key = job.key("paint", scene.key, config.scene.theme, *shown)
-    names = {f"paint/{view.name}" for view in scene.views}
-    if job.folder.has("paint", key) and all(job.folder.has(name, key) for name in names):
+    return job.key("paint", scene.key, config.scene.theme, *shown)
+
+
+def _entry(view: View) -> str:
+    return f"paint/{view.name}"
+
+
+def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
+    config, key = job.config, paint_key(job, scene)
+    settings = PaintSettings(texture=config.texture, condition=config.condition, verify=config.verify)
+    names = {_entry(view) for view in scene.views}
+    if is_painted(job, scene):
         summary = json.loads((job.folder.path / SUMMARY).read_text())
         return Painted(yield_share=summary["yield"], atm=summary["atm"], key=key, job=job)
     job.folder.drop_others("paint/", names)
@@ -63,7 +78,7 @@ def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> 
             depth,
             prompt=lambda room: image_prompt(config.scene.theme, scene.plan.rooms[room].name),
             seed=config.seed,
-            load=lambda view: read_view(job, view) if job.folder.has(f"paint/{view.name}", key) else None,
+            load=lambda view: read_view(job, view) if job.folder.has(_entry(view), key) else None,
             store=lambda view, painted: _store(job, scene, key, view, painted),
             settings=settings,
             progress=show,
@@ -94,7 +109,7 @@ def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView) -
         f"{base}.depth.png": codecs.encode_depth(cast(scene.rays, view.camera).depth),
         f"{base}.json": json_text({"camera": frame, "painted": record}),
     }
-    job.folder.save(f"paint/{view.name}", key, files)
+    job.folder.save(_entry(view), key, files)
 
 
 def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:

@@ -12,6 +12,7 @@ from wm.artifacts import json_text
 from wm.geometry import cast, visible_rooms
 from wm.host import cores
 from wm.splat.cloud import initial_gaussians
+from wm.splat.padding import Capacity
 from wm.splat.ply import save_ply
 from wm.splat.scene_fit import fit_scene
 from wm.splat.scene_render import SceneRenderer
@@ -40,18 +41,18 @@ class Reconstruction:
     renderer: SceneRenderer  # of the rooms
 
 
-def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut) -> Reconstruction:
-    """The gaussians of the scene, in `splats.ply`."""
+def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, capacity: Capacity) -> Reconstruction:
+    """The gaussians of the scene, in `splats.ply`; `capacity` is what its steps are compiled for."""
     with job.stage("reconstruct"):
         config = job.config
         key = job.key("reconstruct", painted.key, config.fit, config.raster)
         if not job.folder.has("reconstruct", key):
-            _fit(job, scene, painted, heldout, key)
+            _fit(job, scene, painted, heldout, capacity, key)
         history = job.folder.path / HISTORY
         rooms = _split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes()))
         return Reconstruction(
             rooms=rooms,
-            renderer=SceneRenderer(rooms, config.raster),
+            renderer=SceneRenderer(rooms, config.raster, capacity=capacity),
             history=tuple(json.loads(history.read_text())) if history.is_file() else (),
             key=key,
         )
@@ -74,7 +75,7 @@ def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, g
     )
 
 
-def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) -> None:
+def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Capacity, key: str) -> None:
     config, folder = job.config, job.folder
     rooms = range(len(scene.plan.rooms))
 
@@ -129,6 +130,7 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, key: str) ->
             load=load,
             store=store,
             progress=progress,
+            capacity=capacity,
             # One room a core on one device: a step is compiled once, and XLA runs the calls of different threads side by side.
             devices=jax.devices()[:1] * cores(),
         )
