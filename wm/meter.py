@@ -49,11 +49,23 @@ class StageMeter:
 
 
 def resident_gib() -> float:
-    """Resident memory of this process in GiB: now on Linux, the highest so far elsewhere."""
-    statm = pathlib.Path("/proc/self/statm")
-    if statm.exists():
-        return int(statm.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**30
+    """Resident memory of this process in GiB: now and with its workers on Linux, the highest so far elsewhere."""
+    own = pathlib.Path("/proc/self")
+    if (own / "statm").exists():
+        return sum(map(_resident_pages, [own, *_children(own)])) * os.sysconf("SC_PAGE_SIZE") / 2**30
     import resource
 
     unit = 1 if sys.platform == "darwin" else 1024
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 2**30
+
+
+def _children(process: pathlib.Path) -> list[pathlib.Path]:
+    listed = process / "task" / str(os.getpid()) / "children"
+    return [pathlib.Path("/proc") / pid for pid in listed.read_text().split()] if listed.exists() else []
+
+
+def _resident_pages(process: pathlib.Path) -> int:
+    try:
+        return int((process / "statm").read_text().split()[1])
+    except (OSError, IndexError):  # it has ended meanwhile
+        return 0

@@ -15,13 +15,13 @@ from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.schema import RunConfig
 from wm.stages.evaluation import METRICS, evaluate
-from wm.stages.heldout import render_heldout
+from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.job import TIMINGS, Job
-from wm.stages.painting import is_painted, paint
+from wm.stages.painting import Painted, is_painted, paint
 from wm.stages.reconstruction import reconstruct
 from wm.stages.rehearsal import rehearsed
 from wm.stages.reporting import REPORT, report
-from wm.stages.scene import build_scene
+from wm.stages.scene import Scene, build_scene
 from wm.synth.backends import make_backend
 
 _RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
@@ -51,16 +51,20 @@ def run(config: RunConfig, folder: pathlib.Path) -> dict:
     with open_run_folder(folder, _header(config), overwrite=config.overwrite) as store:
         job = Job(config=config, folder=store, meter=StageMeter(_earlier_timings(folder)))
         scene = build_scene(job)
-        image = make_backend("image", config.image, scene.context)
-        depth = make_backend("depth", config.depth, scene.context)
         with rehearsed(job, scene, needed=not is_painted(job, scene)) as capacity:
-            painted = paint(job, scene, image, depth)
-            heldout = render_heldout(job, scene, image)
+            painted, heldout = _painted(job, scene)
         result = reconstruct(job, scene, painted, heldout, capacity)
         metrics = evaluate(job, scene, painted, result, heldout)
         metrics = report(job, scene, painted, result, metrics)
         print(_summary(folder, job, metrics))
         return metrics
+
+
+def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
+    """All that the image backend is asked for; it is gone afterwards, with its memory."""
+    image = make_backend("image", job.config.image, scene.context)
+    depth = make_backend("depth", job.config.depth, scene.context)
+    return paint(job, scene, image, depth), render_heldout(job, scene, image)
 
 
 def _header(config: RunConfig) -> dict:

@@ -156,6 +156,7 @@ class ImageConfig:
     drift: float = 0.02  # standard deviation of the tone a view invents where its condition shows only depth
     supersampling: int = 2  # geometry samples per pixel side
     texel_size: float = 0.01  # metres between texels of the offline world's surfaces; its light is as much coarser or finer
+    worker: bool = True  # shade in a process of its own, where there is a core for it; changes no byte
 
 
 @dataclass(kw_only=True, unsafe_hash=True)

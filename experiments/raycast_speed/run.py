@@ -60,12 +60,12 @@ def best(work: Callable[[], object]) -> float:
 
 
 def single(work: Callable[[], object]) -> float:
-    cores = raycast._cores
-    raycast._cores = lambda: 1
+    cores = raycast.cores
+    raycast.cores = lambda: 1
     try:
         return best(work)
     finally:
-        raycast._cores = cores
+        raycast.cores = cores
 
 
 def main() -> None:
@@ -99,7 +99,7 @@ def main() -> None:
         for what, cores, ms in rows:
             table.writerow([what, cores, f"{ms:.1f}", "" if what.startswith("build") else f"{len(directions) / ms / 1e3:.1f}"])
     print(out.read_text(), end="")
-    print(f"{len(mesh.faces)} triangles, {WIDTH} x {HEIGHT}, {raycast._cores()} cores")
+    print(f"{len(mesh.faces)} triangles, {WIDTH} x {HEIGHT}, {raycast.cores()} cores")
     print(f"against float64: {np.mean(same):.4f} of faces equal, largest depth error on those {error:.1e} m")
 
 

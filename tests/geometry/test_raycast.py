@@ -200,7 +200,7 @@ def test_the_number_of_threads_and_the_chunks_do_not_matter(monkeypatch):
     limits = np.linspace(0.0, 3.0, 3000)
     once = cast(scene, camera), cast_rays(scene, origins, directions), occluded(scene, origins, directions, limits)
     monkeypatch.setattr(raycast, "_CHUNK", 500)
-    monkeypatch.setattr(raycast, "_cores", lambda: 5)
+    monkeypatch.setattr(raycast, "cores", lambda: 5)
     again = cast(scene, camera), cast_rays(scene, origins, directions), occluded(scene, origins, directions, limits)
     for name in ("depth", "normal", "face", "barycentric", "hit"):
         np.testing.assert_array_equal(getattr(once[0], name), getattr(again[0], name))

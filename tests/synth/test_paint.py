@@ -99,7 +99,7 @@ class Archive:
     def load(self, view):
         return self.kept.get(view.name)
 
-    def store(self, view, painted):
+    def store(self, view, painted, gbuffer):
         if len(self.kept) == self.stop_after:
             raise KeyboardInterrupt
         assert view.name not in self.kept

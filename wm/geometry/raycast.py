@@ -7,7 +7,6 @@ error of about 1e-7 of the scene's extent wherever the scene stands. `_reference
 """
 
 import dataclasses
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
@@ -17,6 +16,7 @@ from jaxtyping import Bool, Float
 from wm.geometry import _embree
 from wm.geometry.camera import basis_rays, camera_center, ray_basis
 from wm.geometry.mesh import check_mesh, face_normals
+from wm.host import cores
 from wm.types import Camera, GBuffer, Mesh
 
 _CHUNK = 1 << 15
@@ -146,14 +146,10 @@ def _check_shapes(origins: np.ndarray, directions: np.ndarray) -> None:
 def _in_threads(work: Callable[[slice], None], count: int, chunk: int) -> None:
     """Run `work` on slices of range(count), on every core this process may use."""
     parts = [slice(start, min(start + chunk, count)) for start in range(0, count, chunk)]
-    threads = min(len(parts), _cores())
+    threads = min(len(parts), cores())
     if threads <= 1:
         for part in parts:
             work(part)
         return
     with ThreadPoolExecutor(threads) as pool:
         list(pool.map(work, parts))
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

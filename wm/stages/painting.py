@@ -3,9 +3,11 @@
 import dataclasses
 import json
 
+import numpy as np
+
 from wm import codecs
 from wm.artifacts import json_text
-from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, cast, object_boxes
+from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, object_boxes
 from wm.geometry.glb import object_nodes, save_glb
 from wm.stages.job import Job
 from wm.stages.scene import Scene
@@ -79,7 +81,7 @@ def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> 
             prompt=lambda room: image_prompt(config.scene.theme, scene.plan.rooms[room].name),
             seed=config.seed,
             load=lambda view: read_view(job, view) if job.folder.has(_entry(view), key) else None,
-            store=lambda view, painted: _store(job, scene, key, view, painted),
+            store=lambda view, painted, gbuffer: _store(job, scene, key, view, painted, gbuffer.depth),
             settings=settings,
             progress=show,
         )
@@ -98,7 +100,7 @@ def read_view(job: Job, view: View) -> PaintedView:
     )
 
 
-def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView) -> None:
+def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView, depth: np.ndarray) -> None:
     record = {name: getattr(painted, name) for name in ("recall", "attempts", "accepted", "reference")}
     frame = codecs.camera_frame(view, scene.rooms[view.room])
     base = f"views/{view.name}"
@@ -106,7 +108,7 @@ def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView) -
         f"{base}.png": codecs.encode_png(painted.rgb),
         f"{base}.mask.png": codecs.encode_mask(painted.mask),
         f"{base}.condition.png": codecs.encode_png(painted.condition),
-        f"{base}.depth.png": codecs.encode_depth(cast(scene.rays, view.camera).depth),
+        f"{base}.depth.png": codecs.encode_depth(depth),
         f"{base}.json": json_text({"camera": frame, "painted": record}),
     }
     job.folder.save(_entry(view), key, files)

@@ -63,7 +63,7 @@ def paint_scene(
     prompt: Callable[[int], str],
     seed: int,
     load: Callable[[View], PaintedView | None],
-    store: Callable[[View, PaintedView], None],
+    store: Callable[[View, PaintedView, GBuffer], None],
     settings: PaintSettings | None = None,
     progress: Callable[[View, PaintedView], None] | None = None,
 ) -> PaintSummary:
@@ -78,7 +78,8 @@ def paint_scene(
       prompt: the words for a room, by its index.
       seed: of the scene; each attempt's seed derives from (seed, the view's index, attempt).
       load: what `store` was given for a view, now or by an earlier run; None for a view that is not finished.
-      store: keeps a finished view. It is called once a view, before anything builds on it.
+      store: keeps a finished view, of which it is also given the true scaffold's G-buffer. It is called once a view, before
+        anything builds on it.
       settings: texture, condition and verification.
       progress: called after each view.
 
@@ -90,41 +91,47 @@ def paint_scene(
     atlas = build_atlas(scaffold.scene.mesh, settings.texture.texel_size)
     depth_range = scene_depth_range(views, conditioning.scene) if views else (0.0, 1.0)
     attempts: list[int] = []
-    done: list[int] = []
-    for room in sorted({view.room for view in views}):
-        images: dict[int, np.ndarray] = {}  # of this room; those of earlier rooms are loaded when needed
-        order = _room_order(views, room, done)
-        for place, (index, reference) in enumerate(order):
-            view = views[index]
-            gbuffer = cast(scaffold.scene, view.camera)
-            painted = load(view)
-            if painted is None:
-                shown = gbuffer if conditioning is scaffold else cast(conditioning.scene, view.camera)
-                request = ImageRequest(
-                    condition=_condition(shown, view, atlas, conditioning, depth_range, settings),
-                    reference=None if reference is None else _image_of(views[reference], images.get(reference), load),
-                    prompt=prompt(room),
-                    view=view,
-                    seed=seed,
-                )
-                style = None if reference is None else views[reference].name
-                if isinstance(image, PrefetchingBackend):
-                    image.prefetch([views[i] for i, _ in order[place : place + _AHEAD]])
-                painted = paint_view(request, shown, image, depth, settings.verify, (seed, index), style)
-                store(view, painted)
-            rgb = as_float(painted.rgb)
-            accumulate_in_place(atlas, gbuffer, view.camera, rgb, room, settings.texture, usable=painted.mask)
-            images[index] = painted.rgb
-            done.append(index)
-            attempts += [painted.attempts] if painted.accepted else []
-            if progress is not None:
-                progress(view, painted)
+    order = _scene_order(views)
+    images: dict[int, np.ndarray] = {}  # of the room under way; those of earlier rooms are loaded when needed
+    for place, (index, reference) in enumerate(order):
+        view = views[index]
+        if place and views[order[place - 1][0]].room != view.room:
+            images.clear()
+        gbuffer = cast(scaffold.scene, view.camera)
+        painted = load(view)
+        if painted is None:
+            shown = gbuffer if conditioning is scaffold else cast(conditioning.scene, view.camera)
+            request = ImageRequest(
+                condition=_condition(shown, view, atlas, conditioning, depth_range, settings),
+                reference=None if reference is None else _image_of(views[reference], images.get(reference), load),
+                prompt=prompt(view.room),
+                view=view,
+                seed=seed,
+            )
+            style = None if reference is None else views[reference].name
+            if isinstance(image, PrefetchingBackend):
+                image.prefetch([views[i] for i, _ in order[place : place + _AHEAD]])
+            painted = paint_view(request, shown, image, depth, settings.verify, (seed, index), style)
+            store(view, painted, gbuffer)
+        accumulate_in_place(atlas, gbuffer, view.camera, as_float(painted.rgb), view.room, settings.texture, usable=painted.mask)
+        images[index] = painted.rgb
+        attempts += [painted.attempts] if painted.accepted else []
+        if progress is not None:
+            progress(view, painted)
     return PaintSummary(
         atlas=atlas,
-        order=tuple(views[i].name for i in done),
+        order=tuple(views[index].name for index, _ in order),
         yield_share=len(attempts) / len(views) if views else 1.0,
         atm=float(np.mean(attempts)) if attempts else None,
     )
+
+
+def _scene_order(views: Sequence[View]) -> list[tuple[int, int | None]]:
+    """(view, reference) as indices into `views`, in painting order: room by room."""
+    order: list[tuple[int, int | None]] = []
+    for room in sorted({view.room for view in views}):
+        order += _room_order(views, room, [index for index, _ in order])
+    return order
 
 
 def _room_order(views: Sequence[View], room: int, done: Sequence[int]) -> list[tuple[int, int | None]]:

@@ -9,6 +9,7 @@ get the world's materials and light; objects that X leaves out are drawn all the
 """
 
 import dataclasses
+import os
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
@@ -16,9 +17,11 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.ndimage import gaussian_filter, zoom
 
+from wm.host import cores
 from wm.schema import ImageConfig
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
 from wm.synth.procedural.room import bake_settings
+from wm.synth.procedural.worker import Recipe, WorkerWorld
 from wm.synth.procedural.world import Shot, World
 from wm.types import OUTSIDE, View
 
@@ -38,7 +41,7 @@ INVENTION = 4.0
 class ProceduralImages:
     """The backend. Rooms are dressed and lit when a view first needs them."""
 
-    world: World
+    world: World | WorkerWorld
     config: ImageConfig
     _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
     _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
@@ -85,8 +88,9 @@ class ProceduralImages:
 
 def make(config: ImageConfig, context: SceneContext) -> ProceduralImages:
     """The offline image backend of a scene. Raises: ValueError for a texel size that is not a positive length."""
-    world = World(context, supersampling=config.supersampling, settings=bake_settings(config.texel_size))
-    return ProceduralImages(world=world, config=config)
+    recipe = Recipe(context, supersampling=config.supersampling, settings=bake_settings(config.texel_size))
+    apart = config.worker and cores() > 1 and os.name == "posix"
+    return ProceduralImages(world=WorkerWorld(recipe, lanes=SHOTS_AT_ONCE) if apart else recipe.make(), config=config)
 
 
 def lowpass(image: Float[np.ndarray, "h w c"], weight: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w c"]:
