@@ -16,7 +16,7 @@ from wm.geometry.air import RoomAir, candidates, free, openness, room_air
 from wm.geometry.camera import camera_center, camera_rotation
 from wm.geometry.footprint import portals
 from wm.geometry.plan_records import FloorPlan
-from wm.geometry.raycast import build_ray_scene, occluded
+from wm.geometry.raycast import RayScene, occluded, ray_scene
 from wm.geometry.views import depth_wanted, door_camera, make_view_camera
 from wm.schema import CameraSettings
 from wm.types import Camera, Mesh, View
@@ -33,7 +33,7 @@ _DEFAULTS = CameraSettings()
 
 
 def place_heldout(
-    plan: FloorPlan, mesh: Mesh, views: Sequence[View], settings: CameraSettings = _DEFAULTS
+    plan: FloorPlan, mesh: Mesh | RayScene, views: Sequence[View], settings: CameraSettings = _DEFAULTS
 ) -> list[View]:
     """`heldout_per_room` views of every room, in free air, at least 0.1 m from any training camera; fewer where none is left.
 
@@ -45,7 +45,7 @@ def place_heldout(
     """
     if settings.heldout_per_room == 0:
         return []
-    scene = build_ray_scene(mesh)
+    scene = ray_scene(mesh)
     taken = np.array([camera_center(view.camera) for view in views]).reshape(-1, 3)
     heldout = []
     for index in range(len(plan.rooms)):

@@ -53,12 +53,17 @@ def build_ray_scene(mesh: Mesh) -> RayScene:
     return RayScene(mesh=mesh, origin=origin, normals=normals, embree=embree)
 
 
+def ray_scene(scene: Mesh | RayScene) -> RayScene:
+    """The RayScene of a mesh; one that is there already is used as it is."""
+    return scene if isinstance(scene, RayScene) else build_ray_scene(scene)
+
+
 def cast(scene: Mesh | RayScene, camera: Camera) -> GBuffer:
     """The G-buffer of a camera; of several views of one mesh, build the RayScene once and pass that.
 
     Faces are hit from both sides; the normal is as the mesh winds it.
     """
-    scene = scene if isinstance(scene, RayScene) else build_ray_scene(scene)
+    scene = ray_scene(scene)
     height, width = camera.height, camera.width
     eye = (camera_center(camera) - scene.origin).astype(np.float32)
     columns, rows = (part.astype(np.float32) for part in ray_basis(camera))

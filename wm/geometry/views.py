@@ -22,7 +22,7 @@ from wm.geometry.air import RoomAir, candidates, free, look_point, openness, roo
 from wm.geometry.camera import camera_center, camera_rotation, make_camera
 from wm.geometry.footprint import Portal, portals
 from wm.geometry.plan_records import FloorPlan
-from wm.geometry.raycast import build_ray_scene
+from wm.geometry.raycast import RayScene, ray_scene
 from wm.geometry.stations import short_sides, walk_line
 from wm.geometry.surface_points import SurfacePoints, some_points, surface_points, times_seen
 from wm.schema import CameraSettings
@@ -42,18 +42,19 @@ _POINTS = 2000  # surface points a room by which views are picked
 _DEFAULTS = CameraSettings()
 
 
-def place_cameras(plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS) -> list[View]:
+def place_cameras(plan: FloorPlan, mesh: Mesh | RayScene, settings: CameraSettings = _DEFAULTS) -> list[View]:
     """The training cameras of every room, in free air, in the order bootstrap, perimeter, overhead, doorway.
 
     Args:
         plan: a valid plan.
-        mesh: its structure, with or without objects.
+        mesh: its structure, with or without objects; a RayScene of it saves building another.
         settings: numbers and sizes of the views.
 
     Raises: ValueError if a room has no free spot for a camera, naming the room and why.
     Source: WorldMesh, "Camera Viewpoint Generation"; where ours differs is said at the top of this file.
     """
-    scene = build_ray_scene(mesh)
+    scene = ray_scene(mesh)
+    mesh = scene.mesh
     points = surface_points(mesh, _POINTS * len(plan.rooms))
     views = []
     for index in range(len(plan.rooms)):

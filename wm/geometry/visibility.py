@@ -17,7 +17,7 @@ from wm.geometry.air import floor_grid, free
 from wm.geometry.footprint import interior_polygon
 from wm.geometry.navigation import body_floor, object_corners
 from wm.geometry.plan_records import FloorPlan
-from wm.geometry.raycast import RayScene, build_ray_scene
+from wm.geometry.raycast import RayScene, ray_scene
 from wm.geometry.surface_points import SurfacePoints, in_sight, some_points, surface_points, times_seen
 from wm.types import Mesh, View
 
@@ -37,13 +37,13 @@ class Coverage:
     three: float  # seen by at least three
 
 
-def coverage(plan: FloorPlan, mesh: Mesh, views: Sequence[View]) -> Coverage:
+def coverage(plan: FloorPlan, mesh: Mesh | RayScene, views: Sequence[View]) -> Coverage:
     """The shares of the reachable surface that the views see: in the picture, facing it, with nothing between.
 
     Both are 0 without views, and 1 where nothing is reachable (a plan without rooms has nothing to see).
     """
-    scene = build_ray_scene(mesh)
-    points = surface_points(mesh, _POINTS)
+    scene = ray_scene(mesh)
+    points = surface_points(scene.mesh, _POINTS)
     reachable = reachable_points(plan, scene, points)
     points = some_points(points, reachable)
     if not len(points.face):

@@ -91,7 +91,7 @@ def _picture(view: View) -> str:
 
 def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict:
     walk = navigability(scene.plan, scene.objects, job.config.navigation)
-    seen = coverage(scene.plan, scene.mesh, scene.views)
+    seen = coverage(scene.plan, scene.rays, scene.views)
     return {
         "navigability": walk.share,
         "navigability_body": walk.share_body,

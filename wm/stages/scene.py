@@ -60,7 +60,7 @@ def build_scene(job: Job) -> Scene:
         mesh = assemble_scene(structure, objects)
         rays = build_ray_scene(mesh)
     with job.stage("cameras"):
-        views, heldout = _cameras(job, plan, mesh)
+        views, heldout = _cameras(job, plan, rays)
     return Scene(plan=plan, context=context, mesh=mesh, rays=rays, views=views, heldout=heldout, key=key)
 
 
@@ -110,10 +110,10 @@ def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[Scen
     return codecs.decode_objects((job.folder.path / OBJECT_ARRAYS).read_bytes()), key
 
 
-def _cameras(job: Job, plan: FloorPlan, mesh: Mesh) -> tuple[tuple[View, ...], tuple[View, ...]]:
+def _cameras(job: Job, plan: FloorPlan, rays: RayScene) -> tuple[tuple[View, ...], tuple[View, ...]]:
     settings = job.config.cameras
-    views = tuple(place_cameras(plan, mesh, settings))
-    heldout = tuple(place_heldout(plan, mesh, views, settings))
+    views = tuple(place_cameras(plan, rays, settings))
+    heldout = tuple(place_heldout(plan, rays, views, settings))
     frames = codecs.transforms_json(views, [room.id for room in plan.rooms], "splats.ply")
     job.folder.save("cameras", job.key("cameras", settings, json.dumps(frames)), {CAMERAS: json_text(frames)})
     return views, heldout
