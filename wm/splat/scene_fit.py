@@ -8,13 +8,11 @@ room are in memory only while it is fitted. Rooms share compiled steps: their ga
 
 import dataclasses
 import queue
-import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import jax
-import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.batch import Compiled, Device
@@ -24,6 +22,7 @@ from wm.splat.fit import DEFAULT_RASTER, Progress, see_views, seed_of
 from wm.splat.padding import Capacity, pad_gaussians
 from wm.splat.room_fit import Interrupted, RoomFit
 from wm.splat.room_state import RoomState, initial_state
+from wm.splat.scene_progress import Checkpoints, Load, SceneProgress, Store
 from wm.splat.step import raster_for
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
@@ -33,9 +32,6 @@ RUNG = 8
 them, and what padding adds to a step is little."""
 
 RoomViews = Callable[[int], Sequence[TrainingView]]
-Arrays = Mapping[str, np.ndarray]
-Load = Callable[[int, int], Arrays | None]
-Store = Callable[[int, int, Arrays], None]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -88,8 +84,8 @@ def fit_scene(
         settings=settings,
         raster=raster_for(settings, raster),
         seed=seed_of(key),
-        report=_Report(len(gaussians) * settings.steps, progress),
-        checkpoints=_Checkpoints(load, store, checkpoint_seconds),
+        report=SceneProgress(len(gaussians) * settings.steps, progress),
+        checkpoints=Checkpoints(load, store, checkpoint_seconds),
     )
     devices = list(devices or jax.devices())
     free = queue.SimpleQueue()
@@ -123,57 +119,6 @@ def fit_scene(
     )
 
 
-class _Halted(Exception):
-    """Raised in the rooms under way when the fit of the scene is interrupted."""
-
-
-class _Report:
-    """Steps done over all rooms, told to `progress` one call at a time."""
-
-    def __init__(self, total: int, progress: Progress | None) -> None:
-        self._done, self._total, self._progress, self._lock = 0, total, progress, threading.Lock()
-        self._halted = False
-
-    def step(self, info: dict) -> None:
-        self._add(1, info)
-        if self._halted:
-            raise _Halted
-
-    def skip(self, steps: int) -> None:
-        self._add(steps, {})
-
-    def halt(self) -> None:
-        """From now on every room ends at its next step."""
-        self._halted = True
-
-    def _add(self, steps: int, info: dict) -> None:
-        with self._lock:
-            self._done += steps
-            if self._progress is not None:
-                self._progress(self._done, self._total, info)
-
-
-@dataclasses.dataclass(frozen=True)
-class _Checkpoints:
-    """Where the states of rooms are kept, and how often."""
-
-    load: Load
-    store: Store
-    seconds: float
-
-    def keeper(self, round_: int, room: int) -> Callable[[Callable[[], RoomState]], None]:
-        """What to call after every step of a room: stores its state when it is time."""
-        last = time.perf_counter()
-
-        def keep(state: Callable[[], RoomState]) -> None:
-            nonlocal last
-            if time.perf_counter() - last >= self.seconds:
-                self.store(round_, room, to_arrays(state()))
-                last = time.perf_counter()
-
-        return keep
-
-
 class _Scene:
     """The states of all rooms as they stood when the round began, and all that the fit of one of them reads."""
 
@@ -183,8 +128,8 @@ class _Scene:
         self.heldout: RoomViews = heldout
         self.settings: FitSettings = settings
         self.seed: tuple[int, ...] = seed
-        self.report: _Report = report
-        self.checkpoints: _Checkpoints = checkpoints
+        self.report: SceneProgress = report
+        self.checkpoints: Checkpoints = checkpoints
         self.compiled = Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=Capacity())
         self.started = time.perf_counter()
         self.largest = max((self._count(room) for room in range(len(states))), default=0)
@@ -204,15 +149,14 @@ class _Scene:
         return state
 
     def has_ended(self, state: RoomState, round_: int) -> bool:
-        """Whether a checkpoint is that of the end of a round."""
-        return state.stopped is not None or state.step >= self.stretch(round_)[1]
+        """Whether a checkpoint is that of the end of a round, and not of its last step: then the round is still to be judged."""
+        return state.stopped is not None or (state.watch is None and state.step >= self.stretch(round_)[1])
 
     def fit_room(self, round_: int, room: int, state: RoomState, device: Device) -> RoomState:
         """The state of a room after a round, which is stored, as is what an exception leaves."""
-        _, last = self.stretch(round_)
         checkpoints = self.checkpoints
         try:
-            state = self._fitted(room, state, last, device, checkpoints.keeper(round_, room))
+            state = self._fitted(room, state, self.stretch(round_), device, checkpoints.keeper(round_, room))
         except Interrupted as interrupted:
             if interrupted.resumable:
                 checkpoints.store(round_, room, to_arrays(interrupted.state))
@@ -220,10 +164,10 @@ class _Scene:
         checkpoints.store(round_, room, to_arrays(state))
         return state
 
-    def _fitted(self, room: int, state: RoomState, last: int, device: Device, keep) -> RoomState:
-        views = list(self.views(room))
+    def _fitted(self, room: int, state: RoomState, stretch: tuple[int, int], device: Device, keep) -> RoomState:
+        (first, last), views = stretch, list(self.views(room))
         if state.stopped or not views or self._count(room) == 0:
-            self.report.skip(last - state.step if state.stopped is None else 0)
+            self.report.skip(last - first)
             return dataclasses.replace(state, step=last)
         heldout = list(self.heldout(room))
         all_views = [*views, *heldout]
