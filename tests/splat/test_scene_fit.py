@@ -46,6 +46,11 @@ def test_scheduling_changes_no_byte(once):
     assert raw(run(devices=2).gaussians) == raw(once.gaussians)
 
 
+def test_devices_beyond_the_rooms_share_their_batches_and_change_no_byte():
+    settings = dataclasses.replace(SETTINGS, batch=2)
+    assert raw(run(devices=2 * ROOMS, settings=settings).gaussians) == raw(run(settings=settings).gaussians)
+
+
 def test_every_room_is_fitted_and_reports_its_curve(once):
     for before, after in zip(START, once.gaussians):
         assert before.means.shape == after.means.shape and (before.sh != after.sh).any()

@@ -71,7 +71,8 @@ def fit_scene(
             same bytes. `store` is called from the threads of the devices, for one room at a time each.
         checkpoint_seconds: a room is stored when this long has passed since it began or was stored, and when its round ends.
         progress: called after every step of any room, one call at a time.
-        devices: one room at a time each; all CPU devices if None (`jax_num_cpu_devices` says how many), or all accelerators.
+        devices: one room at a time each, or several for a room and its batches where there are fewer rooms; all CPU devices if
+            None (`jax_num_cpu_devices` says how many), or all accelerators.
 
     Returns: the gaussians, the curves and what stopped early.
     Raises: the error of a room (of `views`, say) once all rooms ended their round. A KeyboardInterrupt as soon as every room
@@ -88,22 +89,23 @@ def fit_scene(
         checkpoints=Checkpoints(load, store, checkpoint_seconds),
     )
     devices = list(devices or jax.devices())
+    side_by_side = max(min(len(devices), len(gaussians)), 1)
     free = queue.SimpleQueue()
-    for device in devices:
-        free.put(device)
+    for first in range(side_by_side):
+        free.put(devices[first::side_by_side])
 
     def one_room(round_: int, room: int) -> RoomState:
         state = scene.stored(round_, room)
         if state is not None and scene.has_ended(state, round_):
             return state
-        device = free.get()
+        mine = free.get()
         try:
-            return scene.fit_room(round_, room, state or scene.states[room], device)
+            return scene.fit_room(round_, room, state or scene.states[room], mine)
         finally:
-            free.put(device)
+            free.put(mine)
 
     largest_first = sorted(range(len(gaussians)), key=lambda room: -len(gaussians[room].opacity_logits))
-    with ThreadPoolExecutor(max_workers=len(devices), thread_name_prefix="wm-fit") as pool:
+    with ThreadPoolExecutor(max_workers=side_by_side, thread_name_prefix="wm-fit") as pool:
         for round_ in range(settings.rounds):
             running = {room: pool.submit(one_room, round_, room) for room in largest_first}
             try:
@@ -152,11 +154,11 @@ class _Scene:
         """Whether a checkpoint is that of the end of a round, and not of its last step: then the round is still to be judged."""
         return state.stopped is not None or (state.watch is None and state.step >= self.stretch(round_)[1])
 
-    def fit_room(self, round_: int, room: int, state: RoomState, device: Device) -> RoomState:
+    def fit_room(self, round_: int, room: int, state: RoomState, devices: Sequence[Device]) -> RoomState:
         """The state of a room after a round, which is stored, as is what an exception leaves."""
         checkpoints = self.checkpoints
         try:
-            state = self._fitted(room, state, self.stretch(round_), device, checkpoints.keeper(round_, room))
+            state = self._fitted(room, state, self.stretch(round_), devices, checkpoints.keeper(round_, room))
         except Interrupted as interrupted:
             if interrupted.resumable:
                 checkpoints.store(round_, room, to_arrays(interrupted.state))
@@ -164,15 +166,15 @@ class _Scene:
         checkpoints.store(round_, room, to_arrays(state))
         return state
 
-    def _fitted(self, room: int, state: RoomState, stretch: tuple[int, int], device: Device, keep) -> RoomState:
+    def _fitted(self, room: int, state: RoomState, stretch: tuple[int, int], devices: Sequence[Device], keep) -> RoomState:
         (first, last), views = stretch, list(self.views(room))
         if state.stopped or not views or self._count(room) == 0:
             self.report.skip(last - first)
             return dataclasses.replace(state, step=last)
         heldout = list(self.heldout(room))
         all_views = [*views, *heldout]
-        neighbours = self._neighbours(all_views, room, device)
-        seen = see_views(all_views, neighbours, self.compiled.raster, device, self._columns)
+        neighbours = self._neighbours(all_views, room, devices[0])
+        seen = see_views(all_views, neighbours, self.compiled.raster, devices[0], self._columns)
         room_fit = RoomFit(
             views=seen[: len(views)],
             heldout=seen[len(views) :],
@@ -182,7 +184,7 @@ class _Scene:
             room=room,
             count=self._count(room),
             rows=self._rung(room),
-            devices=[device],
+            devices=devices,
             clock=lambda: time.perf_counter() - self.started,
         )
         return room_fit.run(state, last, lambda done, info: self.report.step(info | {"room": room}), keep)
