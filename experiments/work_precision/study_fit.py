@@ -34,7 +34,9 @@ VARIANTS: dict[str, dict] = {
     "rates x2": {"factor": 2.0},
     "rates not falling": {"lr_final": 1.0},
     "2 views a step": {"batch": 2},
-    "refine every 15": {"refine_every": 15},
+    "refined": {"refine_every": 14},
+    "refined, twice the spare": {"refine_every": 14, "refine_spare": 0.3, "refine_share": 0.1},
+    "as many without": {"spacing": 0.0513, "detail_spacing": 0.0256},
     "exposure": {"exposure": True},
 }
 PANELS = [("seconds", "psnr", "linear"), ("seconds", "m_mae", "log"), ("seconds", "n_ang_deg", "linear")]

@@ -1,4 +1,4 @@
-"""Refinement within a fixed number of gaussians: those whose opacity has died go where the residual stays.
+"""Refinement within a fixed number of gaussians: those whose opacity has died, or never lived, go where the residual stays.
 
 The residual stays at gaussian i if moving it on the image would lower the loss: s_i = mean of |dL / d mean2d_i| over the visits
 that showed it. A dead gaussian is given to the one of the largest s: that one is split along its longest axis. With sigma its
