@@ -60,7 +60,7 @@ def furnished_room(folder: pathlib.Path, *, tiny: bool) -> Room:
 
     size = ["preset=draft", "cameras.width=96", "cameras.height=64", "cameras.heldout_per_room=2"] if tiny else []
     config = load_config(["+scene=gothic", "scene.rooms=[dining room]", "image.drift=0", *size])
-    with open_run_folder(folder, dataclasses.asdict(config)) as store:
+    with open_run_folder(folder, dataclasses.asdict(config), overwrite=True) as store:
         job = Job(config=config, folder=store, meter=StageMeter({}))
         scene = build_scene(job)
         image = make_backend("image", config.image, scene.context)
