@@ -85,7 +85,11 @@ def test_a_killed_run_resumes_and_ends_in_the_same_bytes(once):
     assert steps[-1][:2] == (ROOMS * 4, ROOMS * 4) and sum(bool(info) for *_, info in steps) == 2 * (6 - len(kept))
 
 
-@pytest.mark.parametrize("extra", [{}, {"exposure": True, "refine_every": 1}], ids=["plain", "exposure and refinement"])
+@pytest.mark.parametrize(
+    "extra",
+    [{}, pytest.param({"exposure": True, "refine_every": 1}, marks=pytest.mark.slow)],
+    ids=["plain", "exposure and refinement"],
+)
 def test_a_run_killed_within_a_round_resumes_in_the_middle_of_a_room_and_ends_in_the_same_bytes(extra):
     settings = dataclasses.replace(SETTINGS, steps=6, rounds=2, curve_points=3, **extra)
     undisturbed, kept, left, steps = run(settings=settings), {}, {}, []
