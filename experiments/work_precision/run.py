@@ -37,7 +37,10 @@ def main() -> None:
 
 
 def draw(rows: list[dict], panels: list[tuple[str, str, str]], path: pathlib.Path) -> None:
-    """One panel for each (x, y, scale of y): a line for each value of `vary`, its points labelled with `value`."""
+    """One panel for each (x, y, scale of y): a line for each value of `vary`, its points labelled with `value`.
+
+    Rows without x or y, and zeros on a logarithmic axis, are in the CSV only.
+    """
     import matplotlib
 
     matplotlib.use("Agg")
@@ -46,17 +49,19 @@ def draw(rows: list[dict], panels: list[tuple[str, str, str]], path: pathlib.Pat
     figure = Figure(figsize=(5.2 * len(panels), 4.2), layout="constrained")
     for k, (x, y, scale) in enumerate(panels):
         axes = figure.add_subplot(1, len(panels), k + 1)
-        for vary in dict.fromkeys(row["vary"] for row in rows):
-            points = sorted((row for row in rows if row["vary"] == vary), key=lambda row: row[x])
+        drawn = [row for row in rows if x in row and y in row and (row[y] > 0 or scale == "linear")]
+        for vary in dict.fromkeys(row["vary"] for row in drawn):
+            points = sorted((row for row in drawn if row["vary"] == vary), key=lambda row: row[x])
             axes.plot([row[x] for row in points], [row[y] for row in points], "o-", markersize=4, label=vary)
             for row in points:
                 axes.annotate(str(row["value"]), (row[x], row[y]), fontsize=6, xytext=(3, 3), textcoords="offset points")
         axes.set_xscale("log")
-        axes.set_yscale(scale, **({"linthresh": 1e-9} if scale == "symlog" else {}))
+        axes.set_yscale(scale)
         axes.set_xlabel(x)
         axes.set_title(y, fontsize=9)
         axes.grid(alpha=0.25)
-    figure.axes[0].legend(fontsize=7)
+    if figure.axes[0].lines:
+        figure.axes[0].legend(fontsize=7)
     figure.savefig(path, dpi=110, metadata={"Software": None})
 
 

@@ -1,7 +1,8 @@
 """The rasterizer on the bench scene: image and gradient against a render without cuts, over every constant of its settings.
 
 The reference is the same code with cuts so low that nothing is left out. How far that is from the float64 twin, which no scene of
-this size fits, is the row `twin`: a crowd of gaussians on a small image. A reused plan is charged its share of the planning.
+this size fits, is the row `twin`: a crowd of gaussians on a small image. A reused plan is charged its share of the planning;
+what it costs is order: the far wall of the bench scene faces the camera, and its gaussians pass one another at the least move.
 """
 
 import dataclasses
@@ -28,7 +29,7 @@ SWEEPS = {
 }
 REUSE = (1, 2, 4, 8)
 """Steps that a plan is used for: error of the last of them, gaussians moving at the learning rates of a fit."""
-PANELS = [("step_ms", "rgb_rms", "symlog"), ("step_ms", "rgb_max", "symlog"), ("step_ms", "gradient", "symlog")]
+PANELS = [("step_ms", "rgb_rms", "log"), ("step_ms", "rgb_max", "log"), ("step_ms", "gradient", "log")]
 
 
 def rows(tiny: bool, world) -> Iterator[dict]:
@@ -120,13 +121,14 @@ def errors(found, exact) -> dict[str, float]:
 
 
 def twin(speed) -> dict[str, float]:
-    """The reference against float64, on a scene that float64 without tiles can hold; its times are not comparable."""
+    """The reference's colours against float64, on a scene that float64 without tiles can hold; not timed."""
     case = Case(gaussians=speed.scene(1500, 1.0), camera=speed.camera_of(48, 32), repeats=1)
     with jax.enable_x64(True):
         gaussians, camera = jax.tree.map(lambda x: np.asarray(x, np.float64), (case.gaussians, case.camera))
         exact = np.asarray(render_reference(gaussians, camera, settings=EXACT).rgb)
-    rgb, gradient = case.result(EXACT)
-    return errors((rgb, gradient), (exact, gradient)) | case.times(EXACT, 1)
+    found, gradient = case.result(EXACT)
+    row = errors((found, gradient), (exact, gradient))
+    return {name: row[name] for name in ("rgb_rms", "rgb_max")}
 
 
 def _label(value: float) -> str:

@@ -18,7 +18,7 @@ from wm.geometry._reference import cast_rays_reference
 from wm.geometry.camera import camera_center, camera_rays, make_camera
 from wm.types import Mesh
 
-PANELS = [("mrays_per_s", "depth_error_m", "symlog"), ("mrays_per_s", "leaks", "symlog"), ("mrays_per_s", "other_face", "symlog")]
+PANELS = [("mrays_per_s", "depth_error_m", "log"), ("mrays_per_s", "leaks", "linear"), ("mrays_per_s", "other_face", "linear")]
 
 
 def rows(tiny: bool, world: pathlib.Path) -> Iterator[dict]:
