@@ -12,6 +12,7 @@ import importlib
 import pathlib
 
 HERE = pathlib.Path(__file__).parent
+WORLD = pathlib.Path("outputs/work_precision")
 STUDIES = ("raster", "fit", "raycast", "texture")
 
 
@@ -20,7 +21,7 @@ def main() -> None:
     parser.add_argument("study", choices=STUDIES)
     parser.add_argument("--tiny", action="store_true", help="small sizes and few repeats; its rows mean nothing")
     parser.add_argument("--out", type=pathlib.Path, default=HERE, help="folder of the CSV and the figure")
-    parser.add_argument("--world", type=pathlib.Path, default=HERE / "world", help="run folder of the furnished room")
+    parser.add_argument("--world", type=pathlib.Path, default=WORLD, help="run folder of the room")
     arguments = parser.parse_args()
     study = importlib.import_module(f"study_{arguments.study}")
     rows = []
