@@ -118,6 +118,7 @@ class FitSettings:
     lr_exposure: float = 0.05  # what they move by in a step if all pixels of a view are too bright
     refine_every: int = 0  # steps between refinements, which give faint gaussians to where the residual stays; 0: none
     refine_share: float = 0.05  # of all gaussians that move at most in one of them
+    refine_spare: float = 0.15  # of the initial cloud that are added unseen, to be given away first
     refine_dead: float = 0.05  # opacity up to which a gaussian counts as faint
     sh_degree: int = 0
     curve_points: int = 6  # held-out evaluations along the fit

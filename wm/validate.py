@@ -66,6 +66,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "fit.lr_exposure": (0, 10),
     "fit.refine_every": (0, 10_000_000),
     "fit.refine_share": (0, 0.5),
+    "fit.refine_spare": (0, 10),
     "fit.refine_dead": (1e-6, 0.5),
     "fit.sh_degree": (0, 3),
     "fit.curve_points": (0, 1000),

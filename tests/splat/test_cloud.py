@@ -135,6 +135,19 @@ def test_the_variants_share_count_and_differ_as_they_say():
         initial_gaussians(views, settings=dataclasses.replace(settings, init="round"), rng=np.random.default_rng(0))
 
 
+def test_spare_gaussians_come_with_refinement_and_no_view_shows_them():
+    views, settings = views_of(), FitSettings(spacing=0.3, refine_spare=0.25)
+    plain, refined = (
+        initial_gaussians(views, settings=dataclasses.replace(settings, refine_every=every), rng=np.random.default_rng(0))
+        for every in (0, 10)
+    )
+    n, spare = len(plain.means), len(refined.means) - len(plain.means)
+    assert spare == n // 4
+    np.testing.assert_array_equal(refined.means[:n], plain.means)
+    np.testing.assert_array_equal(refined.opacity_logits[:n], plain.opacity_logits)
+    assert (1 / (1 + np.exp(-refined.opacity_logits[n:].astype(float))) < 1e-9).all()
+
+
 def test_a_view_whose_arrays_do_not_fit_its_camera_is_refused():
     view = views_of()[0]
     with pytest.raises(ValueError, match="depth has shape"):

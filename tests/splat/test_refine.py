@@ -71,8 +71,21 @@ def test_the_image_hardly_changes_at_the_moment_of_refinement(opacity):
         np.asarray(render(g, camera(48, 32, focal=40.0), settings=settings).rgb) for g in (before, after, without)
     )
     change = np.abs(second - first)
-    assert (after.means != before.means).any() and change.max() < 0.2 * np.abs(first).max()
+    assert (after.means != before.means).any() and change.max() < 0.3 * np.abs(first).max()
     assert change.mean() < 0.2 * np.abs(third - first).mean()  # of what would change if what is split were lost
+
+
+@pytest.mark.parametrize("opacity", [0.1, 0.5, 0.9, 0.98])
+def test_halves_are_as_deep_as_the_whole(opacity):
+    whole = jax.tree.map(lambda x: x[1:2], cloud(opacity))
+    low, high = halves(whole)
+    x = np.linspace(-8, 8, 2001)  # along the axis, in standard deviations of the whole
+
+    def depth(centre, width, logit):
+        return -np.log1p(-np.exp(-0.5 * ((x - centre) / width) ** 2) / (1 + np.exp(-logit)))
+
+    pair = sum(depth(c, 0.75**0.5, half.opacity_logits[0]) for c, half in ((-0.5, low), (0.5, high)))
+    np.testing.assert_allclose(pair.sum(), depth(0, 1, whole.opacity_logits[0]).sum(), rtol=2e-3)
 
 
 def test_the_faintest_go_to_where_the_residual_pulls_most():

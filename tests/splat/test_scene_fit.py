@@ -46,6 +46,11 @@ def test_scheduling_changes_no_byte(once):
     assert raw(run(devices=2).gaussians) == raw(once.gaussians)
 
 
+def test_devices_beyond_the_rooms_share_their_batches_and_change_no_byte():
+    settings = dataclasses.replace(SETTINGS, batch=2)
+    assert raw(run(devices=2 * ROOMS, settings=settings).gaussians) == raw(run(settings=settings).gaussians)
+
+
 def test_every_room_is_fitted_and_reports_its_curve(once):
     for before, after in zip(START, once.gaussians):
         assert before.means.shape == after.means.shape and (before.sh != after.sh).any()
@@ -80,7 +85,11 @@ def test_a_killed_run_resumes_and_ends_in_the_same_bytes(once):
     assert steps[-1][:2] == (ROOMS * 4, ROOMS * 4) and sum(bool(info) for *_, info in steps) == 2 * (6 - len(kept))
 
 
-@pytest.mark.parametrize("extra", [{}, {"exposure": True, "refine_every": 1}], ids=["plain", "exposure and refinement"])
+@pytest.mark.parametrize(
+    "extra",
+    [{}, pytest.param({"exposure": True, "refine_every": 1}, marks=pytest.mark.slow)],
+    ids=["plain", "exposure and refinement"],
+)
 def test_a_run_killed_within_a_round_resumes_in_the_middle_of_a_room_and_ends_in_the_same_bytes(extra):
     settings = dataclasses.replace(SETTINGS, steps=6, rounds=2, curve_points=3, **extra)
     undisturbed, kept, left, steps = run(settings=settings), {}, {}, []
@@ -105,18 +114,26 @@ def test_a_run_killed_within_a_round_resumes_in_the_middle_of_a_room_and_ends_in
     assert repr(without_time) == repr([dataclasses.replace(point, seconds=0.0) for point in undisturbed.history])
 
 
-def test_an_interrupt_ends_every_room_at_its_next_step_and_stores_it(once):
-    kept, threads = {}, []
+@pytest.fixture
+def ctrl_c():
+    """As in a terminal: a process started in the background may be told to ignore it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupt_ends_every_room_at_its_next_step_and_stores_it(once, ctrl_c):
+    kept, steps = {}, []
 
     def progress(done, total, info):
-        threads.append(done)
-        if done == 2:
-            signal.raise_signal(signal.SIGINT)  # reaches the main thread, as Ctrl-C does
-            time.sleep(0.2)
+        steps.append(done)
+        if done == 1:
+            os.kill(os.getpid(), signal.SIGINT)  # wakes the main thread, as Ctrl-C does
+            time.sleep(1.0)
 
     with pytest.raises(KeyboardInterrupt):
         run(store=lambda round_, room, arrays: kept.update({(round_, room): arrays}), progress=progress)
-    assert len(threads) < ROOMS * 4 and kept
+    assert steps == [1] and [int(arrays["step"]) for arrays in kept.values()] == [1]
     resumed = run(load=lambda round_, room: kept.get((round_, room)))
     assert raw(resumed.gaussians) == raw(once.gaussians)
 

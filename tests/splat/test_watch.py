@@ -25,7 +25,7 @@ def watched(losses, start=None):
     return watch, alarm
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(st.lists(st.floats(0.02, 5.0), min_size=1, max_size=9), st.floats(0.9, 1.0), st.integers(0, 2**31))
 def test_a_fit_that_gets_better_is_left_alone_however_its_views_differ(first, fall, seed):
     noise = np.random.default_rng(seed).uniform(1.0, 1.6, (30, len(first)))
@@ -34,7 +34,7 @@ def test_a_fit_that_gets_better_is_left_alone_however_its_views_differ(first, fa
     assert alarm is None and not diverges(watch, ended=True)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(st.lists(st.floats(0.02, 1.0), min_size=1, max_size=9), st.floats(1.1 * WORSE, 1e6), st.integers(1, 5))
 def test_a_blow_up_is_noticed_within_its_patience_and_the_state_before_it_is_kept(first, factor, good):
     before = [np.array(first) * 0.95**k for k in range(1, good + 1)]

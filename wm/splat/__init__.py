@@ -10,8 +10,11 @@
     training.py   TrainingView: what a fit is shown
     cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
     ssim.py       ssim, with its own derivative; losses.py: what a fit minimises
-    step.py       one step; room_fit.py: the loop of steps; frozen.py: what a fit renders and does not move
-    fit.py        fit: views of one room; scene_fit.py: fit_scene, many rooms side by side; checkpoint.py: their resumable state
+    step.py       one step; batch.py: the views of a step, over devices; frozen.py: what a fit renders and does not move
+    room_fit.py   the loop of steps; room_state.py, checkpoint.py: where it stands; padding.py: the shapes that steps share
+    watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
+    exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
+    fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
     metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
     ply.py        load_ply, save_ply
 """
@@ -19,7 +22,7 @@
 from wm.splat.cloud import initial_gaussians
 from wm.splat.composite import rasterize
 from wm.splat.curve import FitPoint
-from wm.splat.fit import Fit, fit
+from wm.splat.fit import Fit, FitError, fit
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
 from wm.splat.ply import PlyError, load_ply, save_ply
 from wm.splat.project import Projected, project
@@ -33,6 +36,7 @@ from wm.splat.training import TrainingView
 __all__ = [
     "DepthError",
     "Fit",
+    "FitError",
     "FitPoint",
     "NormalError",
     "PlyError",

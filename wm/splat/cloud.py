@@ -10,12 +10,14 @@ costs depth and normals most. Views are folded in one at a time, so memory is bo
 import dataclasses
 from collections.abc import Iterable
 
+import jax
 import numpy as np
 from jaxtyping import Float
 from scipy.ndimage import maximum_filter
 
 from wm.geometry.camera import camera_rotation, unproject_depth
 from wm.schema import FitSettings
+from wm.splat.padding import CULLED_LOGIT
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
 
@@ -92,7 +94,8 @@ def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, r
     Args:
         views: the room's views.
         settings: `init` is "flat" (discs in the surface), "isotropic" (balls on it) or "random" (as many balls anywhere in the
-            room's bounding box, of random colours); the spacings, `opacity` and `sh_degree` are read too.
+            room's bounding box, of random colours); the spacings, `opacity` and `sh_degree` are read too, and, where gaussians
+            are refined, `refine_spare`.
         rng: read by "random" only.
 
     Source: paper, "Geometry-Regularized 3DGS Scene Reconstruction"; "flat" is ours.
@@ -115,13 +118,24 @@ def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, r
             raise ValueError(f"fit.init is {other!r}; flat, isotropic or random would be right")
     sh = np.zeros((n, (settings.sh_degree + 1) ** 2, 3))
     sh[:, 0] = (colors - 0.5) / SH_C0
-    return Gaussians(
+    gaussians = Gaussians(
         means=points.astype(np.float32),
         quats=quats.astype(np.float32),
         log_scales=np.log(size).astype(np.float32),
         opacity_logits=np.full(n, np.log(opacity / (1 - opacity)), np.float32),
         sh=sh.astype(np.float32),
     )
+    return with_spare(gaussians, settings.refine_spare) if settings.refine_every > 0 else gaussians
+
+
+def with_spare(gaussians: Gaussians, share: float) -> Gaussians:
+    """The gaussians (NumPy) and a share of them more that no view shows: refinement gives those away first."""
+    n = len(gaussians.opacity_logits)
+    spare = int(share * n)
+    rows = np.concatenate([np.arange(n), np.arange(spare) * n // max(spare, 1)])
+    gaussians = jax.tree.map(lambda leaf: leaf[rows], gaussians)
+    gaussians.opacity_logits[n:] = CULLED_LOGIT
+    return gaussians
 
 
 def quats_from_normals(normals: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 4"]:

@@ -1,9 +1,11 @@
-"""Refinement within a fixed number of gaussians: those whose opacity has died go where the residual stays.
+"""Refinement within a fixed number of gaussians: those whose opacity has died, or never lived, go where the residual stays.
 
 The residual stays at gaussian i if moving it on the image would lower the loss: s_i = mean of |dL / d mean2d_i| over the visits
 that showed it. A dead gaussian is given to the one of the largest s: that one is split along its longest axis. With sigma its
-standard deviation there, the halves sit at +- sigma / 2 and have sqrt(3/4) sigma, so that centre and covariance stay, and their
-opacity o' satisfies 1 - (1 - o' exp(-1/6))^2 = o: halfway between them they hide what the whole hid.
+standard deviation there, the halves sit at +- sigma / 2 and have sqrt(3/4) sigma, so that centre and covariance stay. One behind
+the other their optical depths -ln(1 - alpha) add, and the integral of that along the axis stays too, which fixes their opacity:
+
+    Li(o') = Li(o) / sqrt(3),  Li(o) = sum over k >= 1 of o^k / k^(3/2)   (integrate the series of the logarithm term by term)
 
 Source: the criterion is that of Kerbl et al., "3D Gaussian Splatting" (2023), the reuse of dead ones that of Kheradmand et al.,
 "3DGS as Markov Chain Monte Carlo" (2024). There the halves sit on one spot and are told apart by noise; ours need none.
@@ -23,8 +25,10 @@ from wm.types import Gaussians
 UNTIL = 0.75
 """Share of the steps after which nothing is split any more: what was has to settle."""
 
-HIGHEST = 0.99
-"""Opacity that a half may have: the rasterizer's clamp."""
+_OPACITIES = np.linspace(0, 0.99, 500)
+_TERMS = np.arange(1, 500)
+_DEPTHS = (_OPACITIES[:, None] ** _TERMS / _TERMS**1.5).sum(axis=1)
+"""Li of these opacities, up to the rasterizer's clamp."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -91,8 +95,8 @@ def halves(whole: Gaussians) -> tuple[Gaussians, Gaussians]:
     along = Rotation.from_quat(quats, scalar_first=True).as_matrix()[rows, :, axis]
     log_scales = whole.log_scales.copy()
     log_scales[rows, axis] += np.float32(0.5 * np.log(0.75))
-    transparency = 1 / (1 + np.exp(whole.opacity_logits.astype(np.float64)))
-    opacity = np.minimum(np.exp(1 / 6) * (1 - np.sqrt(transparency)), HIGHEST)
+    opacity = 1 / (1 + np.exp(-whole.opacity_logits.astype(np.float64)))
+    opacity = np.interp(np.interp(opacity, _OPACITIES, _DEPTHS) / np.sqrt(3), _DEPTHS, _OPACITIES)
     logits = np.log(opacity / (1 - opacity)).astype(np.float32)
     offset = 0.5 * sigma[:, None] * along
     low, high = (

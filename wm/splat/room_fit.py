@@ -77,9 +77,8 @@ class RoomFit:
             lost = any(leaf.is_deleted() for leaf in jax.tree.leaves(state.train))  # between giving buffers up and the result
             whole = self._best(state) if lost else state
             raise Interrupted(self._on_host(whole), resumable=not lost) from error
-        assert state.watch is not None
-        if state.stopped is None and diverges(state.watch, ended=True):
-            state = self._stopped(state, state.watch.bad_view, divergence(state.watch))
+        if state.stopped is None and diverges(state.watched, ended=True):
+            state = self._stopped(state, state.watched.bad_view, divergence(state.watched))
         return dataclasses.replace(self._on_host(state), watch=None)
 
     def _begin(self, state: RoomState) -> RoomState:
@@ -112,9 +111,8 @@ class RoomFit:
             if reason:
                 return self._stopped(state, loss.view, reason)
         state = dataclasses.replace(state, watch=self._watched(state, losses, rates))
-        assert state.watch is not None
-        if diverges(state.watch):
-            return self._stopped(state, state.watch.bad_view, divergence(state.watch))
+        if diverges(state.watched):
+            return self._stopped(state, state.watched.bad_view, divergence(state.watched))
         return self._refined(self._moved(state, losses, rates))
 
     def _moving(self, state: RoomState, gaussians: Gaussians, view: int) -> Moving:
@@ -126,8 +124,7 @@ class RoomFit:
         )
 
     def _watched(self, state: RoomState, losses: Sequence[ViewLoss], rates: Rates) -> Watch:
-        watch = state.watch
-        assert watch is not None
+        watch = state.watched
         for loss in losses:
 
             def measure(view: int = loss.view, best: Gaussians = watch.best) -> np.ndarray:
@@ -146,7 +143,6 @@ class RoomFit:
                 residual = observe(residual, np.asarray(loss.gradient.shift)[:, : self.count])
         means = np.mean([[getattr(loss.terms, name) for name in MEANS] for loss in losses], axis=0)
         train, step = move(state.train, [loss.gradient.gaussians for loss in losses], rates.learning), state.step + 1
-        assert state.watch is not None
         return dataclasses.replace(
             state,
             train=train,
@@ -154,7 +150,7 @@ class RoomFit:
             exposure=exposure,
             residual=residual,
             since=np.append(state.since, [means], axis=0),
-            watch=watch_step(state.watch, step, lambda: unpad_rows(train.gaussians, self.count)),
+            watch=watch_step(state.watched, step, lambda: unpad_rows(train.gaussians, self.count)),
         )
 
     def _refined(self, state: RoomState) -> RoomState:
@@ -165,15 +161,13 @@ class RoomFit:
 
     def _stopped(self, state: RoomState, view: int, reason: str) -> RoomState:
         """The last good state with the reason: the best one if the last visits were bad, else this one."""
-        assert state.watch is not None
-        kept = self._best(state) if state.watch.recent.any() else state
+        kept = self._best(state) if state.watched.recent.any() else state
         where = f"room {self.room}, step {state.step}, view {view} of {len(self.views)}"
         return dataclasses.replace(kept, stopped=f"{where}: {reason}; kept the state of step {kept.step}")
 
     def _best(self, state: RoomState) -> RoomState:
-        assert state.watch is not None
-        train = jax.device_put(start_state(pad_gaussians(state.watch.best, self.rows)), self.devices[0])
-        return dataclasses.replace(state, train=train, step=state.watch.best_step)
+        train = jax.device_put(start_state(pad_gaussians(state.watched.best, self.rows)), self.devices[0])
+        return dataclasses.replace(state, train=train, step=state.watched.best_step)
 
     def _measured(self, state: RoomState) -> RoomState:
         """The state with one more point of the curve, if one is due."""

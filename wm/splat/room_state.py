@@ -28,6 +28,12 @@ class RoomState:
     watch: Watch | None = None  # None between rounds
     stopped: str | None = None  # why it will not go on, in one sentence
 
+    @property
+    def watched(self) -> Watch:
+        """The watch of a run under way."""
+        assert self.watch is not None
+        return self.watch
+
 
 def initial_state(gaussians: Gaussians) -> RoomState:
     """The state of a room before its first step.

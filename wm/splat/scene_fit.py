@@ -8,13 +8,11 @@ room are in memory only while it is fitted. Rooms share compiled steps: their ga
 
 import dataclasses
 import queue
-import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import jax
-import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.batch import Compiled, Device
@@ -24,6 +22,7 @@ from wm.splat.fit import DEFAULT_RASTER, Progress, see_views, seed_of
 from wm.splat.padding import Capacity, pad_gaussians
 from wm.splat.room_fit import Interrupted, RoomFit
 from wm.splat.room_state import RoomState, initial_state
+from wm.splat.scene_progress import Checkpoints, Load, SceneProgress, Store
 from wm.splat.step import raster_for
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
@@ -33,9 +32,6 @@ RUNG = 8
 them, and what padding adds to a step is little."""
 
 RoomViews = Callable[[int], Sequence[TrainingView]]
-Arrays = Mapping[str, np.ndarray]
-Load = Callable[[int, int], Arrays | None]
-Store = Callable[[int, int, Arrays], None]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -77,7 +73,8 @@ def fit_scene(
         checkpoint_seconds: a room is stored when this long has passed since it began or was stored, and when its round ends.
         progress: called after every step of any room, one call at a time.
         capacity: of an earlier fit of the same shapes, to share what was compiled for it; None: a new one.
-        devices: one room at a time each; all CPU devices if None (`jax_num_cpu_devices` says how many), or all accelerators.
+        devices: one room at a time each, or several for a room and its batches where there are fewer rooms; all CPU devices if
+            None (`jax_num_cpu_devices` says how many), or all accelerators.
 
     Returns: the gaussians, the curves and what stopped early.
     Raises: the error of a room (of `views`, say) once all rooms ended their round. A KeyboardInterrupt as soon as every room
@@ -90,27 +87,28 @@ def fit_scene(
         settings=settings,
         raster=raster_for(settings, raster),
         seed=seed_of(key),
-        report=_Report(len(gaussians) * settings.steps, progress),
-        checkpoints=_Checkpoints(load, store, checkpoint_seconds),
+        report=SceneProgress(len(gaussians) * settings.steps, progress),
+        checkpoints=Checkpoints(load, store, checkpoint_seconds),
         capacity=capacity or Capacity(),
     )
     devices = list(devices or jax.devices())
+    side_by_side = max(min(len(devices), len(gaussians)), 1)
     free = queue.SimpleQueue()
-    for device in devices:
-        free.put(device)
+    for first in range(side_by_side):
+        free.put(devices[first::side_by_side])
 
     def one_room(round_: int, room: int) -> RoomState:
         state = scene.stored(round_, room)
         if state is not None and scene.has_ended(state, round_):
             return state
-        device = free.get()
+        mine = free.get()
         try:
-            return scene.fit_room(round_, room, state or scene.states[room], device)
+            return scene.fit_room(round_, room, state or scene.states[room], mine)
         finally:
-            free.put(device)
+            free.put(mine)
 
     largest_first = sorted(range(len(gaussians)), key=lambda room: -len(gaussians[room].opacity_logits))
-    with ThreadPoolExecutor(max_workers=len(devices), thread_name_prefix="wm-fit") as pool:
+    with ThreadPoolExecutor(max_workers=side_by_side, thread_name_prefix="wm-fit") as pool:
         for round_ in range(settings.rounds):
             running = {room: pool.submit(one_room, round_, room) for room in largest_first}
             try:
@@ -126,57 +124,6 @@ def fit_scene(
     )
 
 
-class _Halted(Exception):
-    """Raised in the rooms under way when the fit of the scene is interrupted."""
-
-
-class _Report:
-    """Steps done over all rooms, told to `progress` one call at a time."""
-
-    def __init__(self, total: int, progress: Progress | None) -> None:
-        self._done, self._total, self._progress, self._lock = 0, total, progress, threading.Lock()
-        self._halted = False
-
-    def step(self, info: dict) -> None:
-        self._add(1, info)
-        if self._halted:
-            raise _Halted
-
-    def skip(self, steps: int) -> None:
-        self._add(steps, {})
-
-    def halt(self) -> None:
-        """From now on every room ends at its next step."""
-        self._halted = True
-
-    def _add(self, steps: int, info: dict) -> None:
-        with self._lock:
-            self._done += steps
-            if self._progress is not None:
-                self._progress(self._done, self._total, info)
-
-
-@dataclasses.dataclass(frozen=True)
-class _Checkpoints:
-    """Where the states of rooms are kept, and how often."""
-
-    load: Load
-    store: Store
-    seconds: float
-
-    def keeper(self, round_: int, room: int) -> Callable[[Callable[[], RoomState]], None]:
-        """What to call after every step of a room: stores its state when it is time."""
-        last = time.perf_counter()
-
-        def keep(state: Callable[[], RoomState]) -> None:
-            nonlocal last
-            if time.perf_counter() - last >= self.seconds:
-                self.store(round_, room, to_arrays(state()))
-                last = time.perf_counter()
-
-        return keep
-
-
 class _Scene:
     """The states of all rooms as they stood when the round began, and all that the fit of one of them reads."""
 
@@ -186,8 +133,8 @@ class _Scene:
         self.heldout: RoomViews = heldout
         self.settings: FitSettings = settings
         self.seed: tuple[int, ...] = seed
-        self.report: _Report = report
-        self.checkpoints: _Checkpoints = checkpoints
+        self.report: SceneProgress = report
+        self.checkpoints: Checkpoints = checkpoints
         self.compiled = Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=capacity)
         self.started = time.perf_counter()
         self.largest = max((self._count(room) for room in range(len(states))), default=0)
@@ -207,15 +154,14 @@ class _Scene:
         return state
 
     def has_ended(self, state: RoomState, round_: int) -> bool:
-        """Whether a checkpoint is that of the end of a round."""
-        return state.stopped is not None or state.step >= self.stretch(round_)[1]
+        """Whether a checkpoint is that of the end of a round, and not of its last step: then the round is still to be judged."""
+        return state.stopped is not None or (state.watch is None and state.step >= self.stretch(round_)[1])
 
-    def fit_room(self, round_: int, room: int, state: RoomState, device: Device) -> RoomState:
+    def fit_room(self, round_: int, room: int, state: RoomState, devices: Sequence[Device]) -> RoomState:
         """The state of a room after a round, which is stored, as is what an exception leaves."""
-        _, last = self.stretch(round_)
         checkpoints = self.checkpoints
         try:
-            state = self._fitted(room, state, last, device, checkpoints.keeper(round_, room))
+            state = self._fitted(room, state, self.stretch(round_), devices, checkpoints.keeper(round_, room))
         except Interrupted as interrupted:
             if interrupted.resumable:
                 checkpoints.store(round_, room, to_arrays(interrupted.state))
@@ -223,15 +169,15 @@ class _Scene:
         checkpoints.store(round_, room, to_arrays(state))
         return state
 
-    def _fitted(self, room: int, state: RoomState, last: int, device: Device, keep) -> RoomState:
-        views = list(self.views(room))
+    def _fitted(self, room: int, state: RoomState, stretch: tuple[int, int], devices: Sequence[Device], keep) -> RoomState:
+        (first, last), views = stretch, list(self.views(room))
         if state.stopped or not views or self._count(room) == 0:
-            self.report.skip(last - state.step if state.stopped is None else 0)
+            self.report.skip(last - first)
             return dataclasses.replace(state, step=last)
         heldout = list(self.heldout(room))
         all_views = [*views, *heldout]
-        neighbours = self._neighbours(all_views, room, device)
-        seen = see_views(all_views, neighbours, self.compiled.raster, device, self._columns)
+        neighbours = self._neighbours(all_views, room, devices[0])
+        seen = see_views(all_views, neighbours, self.compiled.raster, devices[0], self._columns)
         room_fit = RoomFit(
             views=seen[: len(views)],
             heldout=seen[len(views) :],
@@ -241,7 +187,7 @@ class _Scene:
             room=room,
             count=self._count(room),
             rows=self._rung(room),
-            devices=[device],
+            devices=devices,
             clock=lambda: time.perf_counter() - self.started,
         )
         return room_fit.run(state, last, lambda done, info: self.report.step(info | {"room": room}), keep)

@@ -26,7 +26,7 @@ def not_finite(terms: StepTerms, target: Target) -> str | None:
     what = "loss not finite: " + ", ".join(lost) if lost else "gradient not finite: of " + ", ".join(leaves)
     depth = np.asarray(target.depth)
     wrong = int((~np.isfinite(depth)).sum())
-    return what + (f"; the scaffold's depth is not finite at {wrong} of its {depth.size} usable pixels" if wrong else "")
+    return what + (f"; the scaffold's depth is not finite at {wrong} of its {depth.size} pixels" if wrong else "")
 
 
 def divergence(watch: Watch) -> str:
