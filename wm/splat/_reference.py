@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
+from wm.splat._axes import COMPENSATION_FLOOR
 from wm.splat.harmonics import harmonics
 from wm.splat.project import DEFAULTS
 from wm.types import Camera, Gaussians, Render
@@ -35,10 +36,14 @@ def render_reference(
     front = p[:, 2] > settings.near
     p = jnp.where(front[:, None], p, jnp.array([0.0, 0.0, 1.0]))
     z = p[:, 2]
-    sigma = _covariance(gaussians, R, p, camera, settings)
+    sharp = _covariance(gaussians, R, p, camera, settings)
+    sigma = sharp + settings.blur * jnp.eye(2)
     inverse = jnp.linalg.inv(sigma)
     mean2d = p[:, :2] / z[:, None] * camera.focal + camera.principal
     opacity = jax.nn.sigmoid(gaussians.opacity_logits)
+    if settings.antialias:
+        ratio = jnp.linalg.det(sharp) / jnp.linalg.det(sigma)
+        opacity = opacity * jnp.sqrt(jnp.maximum(ratio, COMPENSATION_FLOOR))
     color = _color(gaussians, -R.T @ t)
 
     j, i = jnp.meshgrid(jnp.arange(camera.height) + 0.5, jnp.arange(camera.width) + 0.5, indexing="ij")
@@ -76,7 +81,7 @@ def _covariance(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSett
     scale = camera.focal / p[:, 2:]
     J = jnp.concatenate([scale[:, :, None] * jnp.eye(2), (-scale * slope)[:, :, None]], -1)
     M = J @ R @ Q @ jax.vmap(jnp.diag)(jnp.exp(gaussians.log_scales))
-    return M @ M.transpose(0, 2, 1) + settings.blur * jnp.eye(2)
+    return M @ M.transpose(0, 2, 1)
 
 
 def _color(gaussians: Gaussians, centre):
