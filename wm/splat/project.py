@@ -26,6 +26,7 @@ from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
 from wm.splat._axes import clamped, compensation, rotations
 from wm.splat._pullback import pull_ellipses
+from wm.splat.checks import DEGREES, check_types
 from wm.splat.harmonics import harmonics
 from wm.types import Camera, Gaussians, record
 
@@ -59,10 +60,14 @@ def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEF
     Returns:
         The ellipses, in the order of the gaussians.
 
+    Raises:
+        TypeError, ValueError: a dtype or a shape is wrong, while tracing.
+
     Source: Zwicker et al., "EWA Splatting" (2002); the clamp, blur and cut follow Kerbl et al. (2023), the clamp made aware
     of the principal point. The bounding ellipse is exact for the alpha cut, not 3 sigma. `antialias` is the 2D filter of
     Yu et al., "Mip-Splatting" (2024), section 5.2.
     """
+    check_types(gaussians, camera, settings)
     to_float32 = functools.partial(jax.tree.map, lambda x: jnp.asarray(x, jnp.float32))
     return _project(to_float32(gaussians), to_float32(camera), settings)
 
@@ -87,7 +92,8 @@ def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
     # reach the camera's gradient, which sums over all.
     gaussians, camera, visible = residuals
     rows = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), _rows(gaussians))
-    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), dataclasses.replace(cotangent, extent=jnp.zeros((2, 1))))
+    no_extent = dataclasses.replace(cotangent, extent=jnp.zeros((2, 1), jnp.float32))
+    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), no_extent)
 
     means, quats, log_scales, opacity_logits, sh = rows
     by_means, by_quats, by_scales, by_logits = pull_ellipses(
@@ -117,7 +123,7 @@ def _rows(gaussians: Gaussians):
     """
 
     def split(x):
-        columns = jnp.matmul(jnp.eye(x.shape[1]), x.T, precision="highest")
+        columns = jnp.matmul(jnp.eye(x.shape[1], dtype=x.dtype), x.T, precision="highest")
         return [columns[i] for i in range(x.shape[1])]
 
     sh = [gaussians.sh[:, k].T for k in range(gaussians.sh.shape[1])]
@@ -168,9 +174,7 @@ def _image_axes(quats, log_scales, T, scale, slope):
 
 def _colors(sh, x_world, T):
     """0.5 + sum_k sh_k Y_k(direction from the camera), (3, n). With one coefficient no direction is computed."""
-    degree = {1: 0, 4: 1, 9: 2, 16: 3}.get(len(sh))
-    if degree is None:
-        raise ValueError(f"gaussians.sh has {len(sh)} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right")
+    degree = DEGREES[len(sh)]
     if degree == 0:
         return 0.5 + harmonics(None, 0)[0] * sh[0]
     # the camera stands at -R^T t
