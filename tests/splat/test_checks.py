@@ -50,6 +50,10 @@ def test_camera_background_and_constants():
         render(gaussians, dataclasses.replace(view, width=0))
     with pytest.raises(ValueError, match=r"background has shape \(4,\); \(3,\) or \(13, 21, 3\)"):
         check_background(jnp.ones(4), view)
+    with pytest.raises(TypeError, match="background has dtype uint8"):
+        check_background(np.zeros((13, 21, 3), np.uint8), view)
+    with pytest.raises(ValueError, match=r"camera\.focal has shape \(\); \(2\)"):
+        render(gaussians, dataclasses.replace(view, focal=np.float32(18.0)))
     with pytest.raises(ValueError, match="alpha_min 0"):
         render(gaussians, view, settings=RasterSettings(alpha_min=0.0))
 

@@ -4,7 +4,8 @@ Shapes and dtypes are known while tracing, so checking them costs nothing in a c
 where they are there, and inside jit by `jax.experimental.checkify`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable
+from types import ModuleType
 from typing import Any
 
 import jax
@@ -50,11 +51,11 @@ def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) 
 
 
 def check_background(background: Any, camera: Camera) -> None:
-    """Raises ValueError unless a background is one colour or one a pixel."""
+    """Raises TypeError or ValueError unless a background is one colour or one a pixel, in floating-point numbers."""
     image = (camera.height, camera.width, 3)
-    shape = np.shape(background)
-    if shape not in ((3,), image):
-        raise ValueError(f"background has shape {shape}; (3,) or {image} (height, width, 3) would be right")
+    _check_dtype("background", background)
+    if background.shape not in ((3,), image):
+        raise ValueError(f"background has shape {background.shape}; (3,) or {image} (height, width, 3) would be right")
 
 
 def check_values(gaussians: Gaussians, camera: Camera, background: Any = None) -> None:
@@ -63,39 +64,56 @@ def check_values(gaussians: Gaussians, camera: Camera, background: Any = None) -
     Raises:
         ValueError: naming the leaf and its first bad row. Inside jit: the error that `checkify.checkify` returns.
     """
-    for name, x in _named(gaussians, camera, background):
-        _require(jnp.isfinite(x), name, x, "finite numbers")
-    _require(jnp.asarray(camera.focal) > 0, "camera.focal", camera.focal, "positive focal lengths")
+    for name in _SHAPES:
+        _require(_is_finite, f"gaussians.{name}", getattr(gaussians, name), "finite numbers")
+    if background is not None:
+        _require(_is_finite, "background", background, "finite numbers")
+    _require_camera(camera)
 
 
 def check_camera(camera: Camera) -> None:
-    """`check_values` of a camera alone: a few numbers, whose absence would show as an empty image."""
+    """`check_values` of a camera, where its numbers are there to be looked at; a bad one would show as an empty image."""
+    if not any(isinstance(x, jax.core.Tracer) for x in jax.tree.leaves(camera)):
+        _require_camera(camera)
+
+
+def _require_camera(camera: Camera) -> None:
     for name in _CAMERA:
-        _require(jnp.isfinite(getattr(camera, name)), f"camera.{name}", getattr(camera, name), "finite numbers")
-    _require(jnp.asarray(camera.focal) > 0, "camera.focal", camera.focal, "positive focal lengths")
+        _require(_is_finite, f"camera.{name}", getattr(camera, name), "finite numbers")
+    _require(_is_positive, "camera.focal", camera.focal, "positive focal lengths")
 
 
-def _named(gaussians: Gaussians, camera: Camera, background: Any) -> Iterator[tuple[str, Any]]:
-    yield from ((f"gaussians.{name}", getattr(gaussians, name)) for name in _SHAPES)
-    yield from ((f"camera.{name}", getattr(camera, name)) for name in _CAMERA)
-    if background is not None:
-        yield "background", background
+def _is_finite(x, xp: ModuleType):
+    return xp.isfinite(x)
 
 
-def _require(good, name: str, x: Any, wanted: str) -> None:
-    rows = good.reshape(good.shape[0], -1).all(1) if good.size else jnp.ones(1, bool)
-    first = jnp.argmin(rows)
-    if isinstance(rows, jax.core.Tracer):
+def _is_positive(x, xp: ModuleType):
+    return x > 0
+
+
+def _require(is_good: Callable, name: str, x: Any, wanted: str) -> None:
+    traced = isinstance(x, jax.core.Tracer)
+    xp = jnp if traced else np
+    x = xp.asarray(x)
+    if not x.size:
+        return
+    rows = is_good(x, xp).reshape(x.shape[0], -1).all(1)
+    first = xp.argmin(rows)
+    if traced:
         checkify.check(rows.all(), f"{name}[{{row}}] is bad; {wanted} would be right", row=first)
     elif not rows.all():
-        raise ValueError(f"{name}[{int(first)}] is {np.asarray(x)[int(first)]}; {wanted} would be right")
+        raise ValueError(f"{name}[{first}] is {x[first]}; {wanted} would be right")
 
 
 def _check_leaf(name: str, x: Any, shape: tuple) -> None:
+    _check_dtype(name, x)
+    fits = len(x.shape) == len(shape) and all(isinstance(a, str) or a == b for a, b in zip(shape, x.shape))
+    if not fits:
+        raise ValueError(f"{name} has shape {tuple(x.shape)}; ({', '.join(map(str, shape))}) would be right")
+
+
+def _check_dtype(name: str, x: Any) -> None:
     if not hasattr(x, "dtype"):
         raise TypeError(f"{name} is a {type(x).__name__}; an array would be right")
     if not jnp.issubdtype(x.dtype, jnp.floating):
         raise TypeError(f"{name} has dtype {x.dtype}; floating-point numbers would be right")
-    fits = len(x.shape) == len(shape) and all(isinstance(a, str) or a == b for a, b in zip(shape, x.shape))
-    if not fits:
-        raise ValueError(f"{name} has shape {tuple(x.shape)}; ({', '.join(map(str, shape))}) would be right")

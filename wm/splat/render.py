@@ -13,7 +13,7 @@ from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
-from wm.splat.checks import check_background, check_camera, check_values
+from wm.splat.checks import check_background, check_camera, check_types, check_values
 from wm.splat.composite import rasterize
 from wm.splat.project import DEFAULTS, Projected, project
 from wm.splat.tiles import TilePlan, plan_tiles
@@ -59,20 +59,21 @@ def render(
         Colour, expected depth and alpha, float32 on the device.
 
     Raises:
-        TypeError: an array of gaussians or camera does not hold floating-point numbers.
-        ValueError: a shape is wrong, or outside jit the camera is not finite. Under tracing, when a view has more entries than
-            a traced plan has room for (XLA may wrap it). Nothing is ever left out of the image.
+        TypeError: an array does not hold floating-point numbers.
+        ValueError: a shape is wrong, or the camera is not finite where its numbers are there to be seen. Under tracing, when a
+            view has more entries than a traced plan has room for (XLA may wrap it). Nothing is ever left out of the image.
     """
+    check_types(gaussians, camera, settings)
     if background is not None:
         check_background(background, camera)
     if checked:
         check_values(gaussians, camera, background)
     size = (camera.width, camera.height)
+    check_camera(camera)
     projected = _project(gaussians, camera, settings=settings)
     if any(isinstance(x, Tracer) for x in jax.tree.leaves(projected)):
         plan = _plan_traced(jax.lax.stop_gradient(projected), *size, settings)
     else:
-        check_camera(camera)
         plan = _plan_eager(projected, *size, settings)
     return _rasterize(projected, plan, *size, settings=settings, background=background)
 
