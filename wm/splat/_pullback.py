@@ -23,6 +23,7 @@ from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.splat._apart import apart
 from wm.splat._axes import by_largest, clamped, compensation, rotations
+from wm.splat._pose import to_camera
 from wm.types import Camera
 
 
@@ -42,7 +43,7 @@ def pull_ellipses(
     R, f = camera.T_cam_world, camera.focal
 
     def place(means):
-        x, y, z = (sum(R[i, k] * means[k] for k in range(3)) + R[i, 3] for i in range(3))
+        x, y, z = to_camera(means, R)
         inverse = 1 / jnp.where(visible, z, 1.0)
         return jnp.where(visible, x, 0.0) * inverse, jnp.where(visible, y, 0.0) * inverse, inverse
 

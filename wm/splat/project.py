@@ -25,6 +25,7 @@ from jaxtyping import Array, Bool, Float
 from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
 from wm.splat._axes import clamped, compensation, rotations
+from wm.splat._pose import from_centre, to_camera
 from wm.splat._pullback import pull_ellipses
 from wm.splat.checks import DEGREES, check_types
 from wm.splat.harmonics import harmonics
@@ -136,7 +137,7 @@ def _ellipses(
     """The equations above, nothing culled, and the diagonal of Sigma; where `visible` is False a harmless gaussian stands in."""
     means, quats, log_scales, opacity_logits, sh = rows
     T = camera.T_cam_world
-    px, py, pz = (sum(T[i, k] * means[k] for k in range(3)) + T[i, 3] for i in range(3))
+    px, py, pz = to_camera(means, T)
     if visible is not None:
         px, py, pz = jnp.where(visible, px, 0.0), jnp.where(visible, py, 0.0), jnp.where(visible, pz, 1.0)
     a, b = px / pz, py / pz
@@ -177,8 +178,7 @@ def _colors(sh, x_world, T):
     degree = DEGREES[len(sh)]
     if degree == 0:
         return 0.5 + harmonics(None, 0)[0] * sh[0]
-    # the camera stands at -R^T t
-    x, y, z = (x_world[k] + sum(T[i, k] * T[i, 3] for i in range(3)) for k in range(3))
+    x, y, z = from_centre(x_world, T)
     length = safe_sqrt(x * x + y * y + z * z)
     direction = jnp.stack([safe_div(x, length), safe_div(y, length), safe_div(z, length)])
     return 0.5 + sum(Y * band for Y, band in zip(harmonics(direction, degree), sh))
