@@ -16,7 +16,7 @@ from wm.splat.losses import depth_loss, normal_loss
 from wm.splat.ssim import C1, C2, RADIUS, TAPS, ssim
 from wm.types import Camera, Gaussians
 
-DEFAULT, SMALL = RasterSettings(), RasterSettings(chunk=2)
+DEFAULT, SMALL = RasterSettings(), RasterSettings(chunk=1)
 BACKGROUND = np.array([0.2, 0.5, 0.9])
 SMALLEST = 1e-2
 """Gradients are compared relative to the largest entry of their leaf, or to this where that is smaller: under a random cotangent

@@ -20,7 +20,7 @@ GAUSSIANS = to_float32(cloud())
 WEIGHTS = to_float32(cotangent(camera()))
 VIEWS = [to_float32(camera(seed=seed)) for seed in range(4)]
 CAMERAS: Camera = jax.tree.map(lambda *x: jnp.stack(x), *VIEWS)
-SMALL = RasterSettings(chunk=2)  # compiles in half the time
+SMALL = RasterSettings(chunk=1, block=4)  # compiles sooner
 HOST, TRACED = (dataclasses.replace(SMALL, planner=planner) for planner in ("host", "traced"))
 
 
@@ -84,11 +84,6 @@ def in_graph(devices: int):
     sharded = jax.shard_map(each, mesh=mesh, in_specs=(P(), P("views")), out_specs=P("views"), check_vma=False)
     (values, images), gradients = jax.jit(sharded)(GAUSSIANS, CAMERAS)
     return images, values, gradients
-
-
-@pytest.mark.parametrize("way", [two_phases, pytest.param(in_graph, marks=pytest.mark.slow)])
-def test_shard_map_over_one_device(alone, way):
-    assert_same(way(1), alone)
 
 
 @pytest.mark.slow
