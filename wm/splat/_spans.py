@@ -41,11 +41,11 @@ def chord(terms, row, tile: int, xp: ModuleType):
 
     Within a band of y that does not contain the rightmost point, x is largest at the band's end nearest to it.
     """
-    mx, my, tilt, width_of_1, l2, r2, y_right, slack = terms
+    mx, my, tilt, width_of_1, l2, r2, y_right, margin = terms
     low = row.astype(xp.float32) * tile + 0.5 - my
     high = low + (tile - 1)
     left, right = (
-        mx - tilt * y + sign * (width_of_1 * xp.sqrt(xp.maximum(r2 - (l2 * y) ** 2, 0)) + slack)
+        mx - tilt * y + sign * (width_of_1 * xp.sqrt(xp.maximum(r2 - (l2 * y) ** 2, 0)) + margin)
         for sign, y in ((-1, xp.clip(-y_right, low, high)), (1, xp.clip(y_right, low, high)))
     )
     return left, right

@@ -11,6 +11,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.core import Tracer
 from jax.experimental import checkify
 
 from wm.schema import RasterSettings
@@ -73,7 +74,7 @@ def check_values(gaussians: Gaussians, camera: Camera, background: Any = None) -
 
 def check_camera(camera: Camera) -> None:
     """`check_values` of a camera, where its numbers are there to be looked at; a bad one would show as an empty image."""
-    if not any(isinstance(x, jax.core.Tracer) for x in jax.tree.leaves(camera)):
+    if not any(isinstance(x, Tracer) for x in jax.tree.leaves(camera)):
         _require_camera(camera)
 
 
@@ -92,7 +93,7 @@ def _is_positive(x, xp: ModuleType):
 
 
 def _require(is_good: Callable, name: str, x: Any, wanted: str) -> None:
-    traced = isinstance(x, jax.core.Tracer)
+    traced = isinstance(x, Tracer)
     xp = jnp if traced else np
     x = xp.asarray(x)
     if not x.size:

@@ -8,6 +8,7 @@ Sorts are stable: depths as two argsorts of uint16 keys, which NumPy does by rad
 from coordinates to rows, which is a counting sort. Order in a tile: by depth, equal depths by index.
 """
 
+import dataclasses
 import math
 from typing import Any
 
@@ -95,7 +96,7 @@ def plan_views(projected: Projected, width: int, height: int, settings: RasterSe
     capacity = max(len(plan.ids) for plan in plans)
     n = on_host.opacity.shape[1]
     ids = [np.pad(plan.ids, (0, capacity - len(plan.ids)), constant_values=n) for plan in plans]
-    return jax.tree.map(lambda *leaves: np.stack(leaves), *(plan.replace(ids=row) for plan, row in zip(plans, ids)))
+    return jax.tree.map(lambda *leaves: np.stack(leaves), *(dataclasses.replace(plan, ids=row) for plan, row in zip(plans, ids)))
 
 
 def _front_to_back(depth, visible):

@@ -9,7 +9,6 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
 from wm.splat._spans import blocks, chord, chord_terms, slack, tile_span
@@ -45,29 +44,43 @@ def plan_tiles_traced(
         refuse it, as `render` does.
     """
     projected = jax.tree.map(lambda x: jax.lax.stop_gradient(jnp.asarray(x, jnp.float32)), projected)
+    tiles = -(-width // settings.tile) * -(-height // settings.tile)
+    ids, in_tile, needed = _entries(projected, width, height, settings, capacity)
+    in_tile, ids = jax.lax.sort((in_tile, ids), num_keys=1, is_stable=True)
+    ends = jnp.searchsorted(in_tile, jnp.arange(tiles + 1, dtype=jnp.int32)).astype(jnp.int32)
+    ids = jnp.where(in_tile < tiles, ids, projected.opacity.shape[0])
+    return TracedPlan(plan=TilePlan(ids=ids, **_blocks(jnp.diff(ends), settings.block)), needed=needed)
+
+
+def _entries(projected: Projected, width: int, height: int, settings: RasterSettings, capacity: int):
+    """Gaussian and tile of every entry of the boxes, front to back, and how many there are.
+
+    Those that miss their ellipse, and all beyond the last, have a tile one past the end.
+    """
     n, tile = projected.opacity.shape[0], settings.tile
     columns, rows = -(-width // tile), -(-height // tile)
     order = jnp.argsort(projected.depth, stable=True).astype(jnp.int32)
-    mean, root, opacity, extent = (x[..., order] for x in (projected.mean2d, projected.root, projected.opacity, projected.extent))
-    shown = (opacity > 0) & (extent > 0).all(0)
-    reach = extent + slack(mean, extent, jnp)
-    (left, across), (top, down) = (
-        tile_span(mean[i] - reach[i], mean[i] + reach[i], size, tile, jnp) for i, size in ((0, width), (1, height))
-    )
-    boxes = jnp.where(shown, across * down, 0)
-    which, within, needed = _unrolled(boxes, capacity)
-    safe = jnp.where(shown, opacity, settings.alpha_min), jnp.where(shown, root, 1.0)
-    terms = chord_terms(mean, safe[1], safe[0], extent, settings, jnp)
+    front_to_back = jax.tree.map(lambda x: x[..., order], projected)
+    (left, across), (top, down), terms = _boxes(front_to_back, width, height, settings)
+    which, within, needed = _unrolled(across * down, capacity)
+    # a last gaussian for the entries beyond the last
     terms, left, across, top = (jnp.pad(x, (*((0, 0),) * (x.ndim - 1), (0, 1))) for x in (terms, left, across, top))
-    width_of_box = jnp.maximum(across[which], 1)
-    row, column = top[which] + within // width_of_box, left[which] + within % width_of_box
+    breadth = jnp.maximum(across[which], 1)
+    row, column = top[which] + within // breadth, left[which] + within % breadth
     first, span = tile_span(*chord(terms[:, which], row, tile, jnp), width, tile, jnp)
     met = (which < n) & (column >= first) & (column < first + span)
-    ids = jnp.append(order, jnp.int32(n))[which]
-    in_tile, ids = jax.lax.sort((jnp.where(met, row * columns + column, columns * rows), ids), num_keys=1, is_stable=True)
-    ends = jnp.searchsorted(in_tile, jnp.arange(columns * rows + 1, dtype=jnp.int32)).astype(jnp.int32)
-    ids = jnp.where(in_tile < columns * rows, ids, n)
-    return TracedPlan(plan=TilePlan(ids=ids, **_blocks(jnp.diff(ends), settings.block)), needed=needed)
+    return jnp.append(order, jnp.int32(n))[which], jnp.where(met, row * columns + column, columns * rows), needed
+
+
+def _boxes(projected: Projected, width: int, height: int, settings: RasterSettings):
+    """Spans of columns and of rows of tiles that each ellipse's box meets, none for what is not shown, and its chord's terms."""
+    mean, extent = projected.mean2d, projected.extent
+    shown = (projected.opacity > 0) & (extent > 0).all(0)
+    reach = extent + slack(mean, extent, jnp)
+    spans = [tile_span(mean[i] - reach[i], mean[i] + reach[i], size, settings.tile, jnp) for i, size in ((0, width), (1, height))]
+    opacity, root = jnp.where(shown, projected.opacity, settings.alpha_min), jnp.where(shown, projected.root, 1.0)
+    terms = chord_terms(mean, root, opacity, extent, settings, jnp)
+    return *((first, jnp.where(shown, span, 0)) for first, span in spans), terms
 
 
 def _unrolled(lengths, capacity: int):
@@ -80,7 +93,7 @@ def _unrolled(lengths, capacity: int):
     which = jnp.repeat(jnp.arange(len(lengths), dtype=jnp.int32), lengths, total_repeat_length=capacity)
     entry = jnp.arange(capacity, dtype=jnp.int32)
     which = jnp.where(entry < ends[-1], which, len(lengths) - 1)
-    total: Float[Array, ""] = jnp.sum(lengths.astype(jnp.float32))
+    total = jnp.sum(lengths.astype(jnp.float32))
     needed = jnp.where(total > COUNTABLE, jnp.iinfo(jnp.int32).max, ends[-1])
     return which, entry - (ends - lengths)[which], needed
 
