@@ -191,10 +191,13 @@ CASES = {
         promise="rounding: gaussians and camera as float32 holds them, which is to 1e5 m / 2^24 = 6 mm",
         **ROUNDING,
     ),
-    "1 x 1 image": Case(measure=changed(camera(1, 1), SMALL), promise="rounding", **ROUNDING),
+    "1 x 1 image": Case(measure=changed(camera(1, 1), SMALL), promise="rounding", slow=True, **ROUNDING),
     "21 x 13 image, tiles of 8": Case(measure=changed(), promise="rounding", **ROUNDING),
     "no gaussians": Case(
-        measure=lambda: against_twin(cloud(0), camera(), SMALL), promise="the background, and its gradient", **ROUNDING
+        measure=lambda: against_twin(cloud(0), camera(), SMALL),
+        promise="the background, and its gradient",
+        slow=True,
+        **ROUNDING,
     ),
     "constant images under SSIM": Case(
         measure=constant_images,
