@@ -13,6 +13,7 @@ from wm.schema import RunConfig
 
 CHOICES: Mapping[str, tuple[str, ...]] = {
     "condition.objects": ("textured", "boxes", "none"),
+    "raster.planner": ("auto", "host", "traced"),
     "fit.init": ("flat", "isotropic", "random"),
 }
 
@@ -40,7 +41,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "verify.min_recall": (0, 1),
     "verify.max_attempts": (1, 1000),
     "raster.blur": (0, 100),
-    "raster.alpha_min": (0, 1),
+    "raster.alpha_min": (1e-30, 1),
     "raster.alpha_max": (0, 1),
     "raster.transmittance_min": (0, 1),
     "raster.near": (1e-6, 10),

@@ -1,4 +1,7 @@
-"""Small scenes of gaussians, and the comparison with the float64 twin, for the tests of the splat floor."""
+"""Small scenes of gaussians, and the comparison with the float64 twin, for the tests of the splat floor.
+
+The twin is given the numbers that `render` is given, rounded to float32: what is compared is arithmetic, not input.
+"""
 
 import jax
 import jax.numpy as jnp
@@ -6,7 +9,7 @@ import numpy as np
 
 from wm.schema import RasterSettings
 from wm.splat import project, render
-from wm.splat._reference import render_reference
+from wm.splat._reference import distance_to_thresholds, render_reference
 from wm.types import Camera, Gaussians, Render
 
 SMOOTH = RasterSettings(alpha_min=1e-7, transmittance_min=0.0)
@@ -43,6 +46,65 @@ def cloud(n=24, *, seed=0, degree=0, opaque=2.0) -> Gaussians:
     )
 
 
+def _needles(rng, g):
+    g["log_scales"] = np.log(
+        np.stack([rng.uniform(0.5, 3.0, len(g["means"])), *rng.uniform(5e-5, 3e-4, (2, len(g["means"])))], 1)
+    )
+
+
+def _giants(rng, g):
+    g["log_scales"] = rng.uniform(1.0, 4.0, g["log_scales"].shape)
+
+
+def _specks(rng, g):
+    g["log_scales"] = rng.uniform(-14.0, -6.0, g["log_scales"].shape)
+
+
+def _disks(rng, g):
+    g["log_scales"][:, rng.integers(3)] = -12.0
+
+
+def _certain(rng, g):
+    g["opacity_logits"] = rng.choice([-50.0, 50.0], len(g["means"]))
+
+
+def _unturned(rng, g):
+    g["quats"] = np.zeros_like(g["quats"])
+
+
+def _grazing(rng, g):
+    g["means"][:, 2] = rng.uniform(0.051, 0.1, len(g["means"]))
+
+
+def _behind(rng, g):
+    g["means"][:, 2] = rng.uniform(-3.0, 0.05, len(g["means"]))
+
+
+def _centred(rng, g):
+    g["means"] = np.zeros_like(g["means"])
+
+
+def _tied(rng, g):
+    g["means"] = np.tile([0.1, -0.1, 2.0], (len(g["means"]), 1))
+
+
+KINDS = (_needles, _giants, _specks, _disks, _certain, _unturned, _grazing, _behind, _centred, _tied)
+"""Ways in which gaussians are unpleasant, each at the origin camera; several may befall one gaussian."""
+
+
+def troubled(seed, kinds, *, degree=3) -> Gaussians:
+    """A cloud of 24 in which each of `kinds` (indices of KINDS) befalls four gaussians."""
+    rng = np.random.default_rng([seed, len(kinds)])
+    gaussians = vars(cloud(seed=seed, degree=degree, opaque=9.0))
+    for kind in kinds:
+        hit = rng.choice(24, 4, replace=False)
+        part = {name: value[hit] for name, value in gaussians.items()}
+        KINDS[kind](rng, part)
+        for name, value in part.items():
+            gaussians[name][hit] = value
+    return Gaussians(**gaussians)
+
+
 def to_float32(tree):
     return jax.tree.map(lambda x: jnp.asarray(x, jnp.float32), tree)
 
@@ -53,6 +115,7 @@ def to_float64(tree):
 
 jit_project = jax.jit(project, static_argnames="settings")
 jit_reference = jax.jit(render_reference, static_argnames="settings")
+_jit_distance = jax.jit(distance_to_thresholds, static_argnames="settings")
 
 
 def cotangent(view: Camera, seed=1) -> Render:
@@ -77,25 +140,34 @@ fast_gradient = _gradient(render)
 exact_gradient = _gradient(render_reference)
 
 
-def gradients(gaussians: Gaussians, view: Camera, background, settings: RasterSettings = SMOOTH, seed=1):
-    """(fast, exact) gradients by gaussians, camera and background under one random cotangent.
+def gradients(gaussians: Gaussians, view: Camera, background, settings: RasterSettings = SMOOTH, seed=1, kept=None):
+    """(fast, exact) gradients by gaussians, camera and background under one random cotangent, 0 where `kept` is False.
 
     Depth is weighted with alpha: where next to nothing is seen, depth is next to nothing divided by next to nothing.
     """
-    arguments, weights = (gaussians, view, background), cotangent(view, seed)
+    arguments, weights = to_float32((gaussians, view, background)), cotangent(view, seed)
+    if kept is not None:
+        weights = jax.tree.map(lambda x: x * kept.reshape(kept.shape + (1,) * (x.ndim - 2)), weights)
     with jax.enable_x64(True):
-        alpha = jit_reference(*to_float64((gaussians, view)), settings=settings).alpha
-        weights = weights.replace(depth=weights.depth * np.asarray(alpha))
+        alpha = jit_reference(*to_float64(arguments[:2]), settings=settings).alpha
+        weights = to_float32(weights.replace(depth=weights.depth * np.asarray(alpha)))
         exact = exact_gradient(*to_float64(arguments), to_float64(weights), settings=settings)
-    found = fast_gradient(*to_float32(arguments), to_float32(weights), settings=settings)
+    found = fast_gradient(*arguments, weights, settings=settings)
     return to_float64(found), to_float64(exact)
+
+
+def undecided(gaussians: Gaussians, view: Camera, settings: RasterSettings, *, alpha: float, transmittance: float):
+    """[h, w] pixels where the twin came relatively this close to a threshold: where rounding may decide otherwise."""
+    with jax.enable_x64(True):
+        distance = to_float64(_jit_distance(*to_float64(to_float32((gaussians, view))), settings=settings))
+    return (distance.alpha < alpha) | (distance.transmittance < transmittance)
 
 
 def images(gaussians: Gaussians, view: Camera, background=None, settings: RasterSettings = SMOOTH):
     """(fast, exact) renders as float64 NumPy."""
     found = render(to_float32(gaussians), view, background=background, settings=settings)
     with jax.enable_x64(True):
-        exact = jit_reference(to_float64(gaussians), to_float64(view), background=background, settings=settings)
+        exact = jit_reference(*to_float64(to_float32((gaussians, view))), background=background, settings=settings)
     return to_float64(found), to_float64(exact)
 
 

@@ -49,7 +49,7 @@ def test_needles_keep_their_digits(seed):
 
 def _root64(gaussians, view):
     R, t = view.T_cam_world[:3, :3], view.T_cam_world[:3, 3]
-    sigma = np.asarray(_covariance(gaussians, R, gaussians.means @ R.T + t, view, RasterSettings()))
+    sigma = np.asarray(_covariance(gaussians, R, gaussians.means @ R.T + t, view, RasterSettings())) + 0.3 * np.eye(2)
     return np.stack([np.linalg.cholesky(np.linalg.inv(sigma))[:, i, j] for i, j in ((0, 0), (1, 0), (1, 1))])
 
 

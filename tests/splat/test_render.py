@@ -3,6 +3,7 @@
 A compilation costs more than everything else here, so the scenes share a few shapes.
 """
 
+import dataclasses
 import functools
 import importlib
 
@@ -32,7 +33,8 @@ from tests.splat.scenes import (
 from wm.schema import RasterSettings
 from wm.splat import plan_tiles, project, rasterize, render
 from wm.splat._reference import render_reference
-from wm.types import Camera, Gaussians
+from wm.splat.losses import depth_loss, normal_loss, photometric_loss
+from wm.types import Camera, Gaussians, Render
 
 DEFAULT = RasterSettings()
 BACKGROUND = np.array([0.2, 0.5, 0.9])
@@ -89,6 +91,40 @@ def test_pose_gradient_against_finite_differences():
         numeric = np.array([(value(step, h) - value(step, -h)) / (2 * h) for step in steps])
     found = fast_gradient(*to_float32((gaussians, view, BACKGROUND, weights)), settings=SMOOTH)[1].T_cam_world
     np.testing.assert_allclose([found[step] for step in steps], numeric, atol=1e-3 * np.abs(numeric).max())
+
+
+def whole_loss(image: Render, view: Camera):
+    """What a step of the fit minimises, toward some image and some tilted wall."""
+    rng, dtype = np.random.default_rng(0), image.rgb.dtype
+    target, mask = jnp.asarray(rng.random((13, 21, 3)), dtype), jnp.asarray(rng.random((13, 21)) < 0.9)
+    scaffold = jnp.asarray(1 / np.linspace(0.7, 0.9, 21) + np.zeros((13, 1)), dtype)
+    photometric = photometric_loss(image.rgb, target, mask, ssim_weight=0.2)
+    normal = normal_loss(image.depth, scaffold, mask, jnp.asarray(view.focal, dtype), jnp.asarray(view.principal, dtype))
+    return photometric + 1.5 * depth_loss(image.depth, scaffold, mask) + 0.3 * normal
+
+
+def test_gradient_of_the_whole_loss_against_finite_differences():
+    # large gaussians: every pixel is covered, so that depth is defined everywhere
+    gaussians, view, h = cloud(seed=3, degree=3), camera(seed=4), 1e-6
+    gaussians = to_float32(gaussians.replace(log_scales=gaussians.log_scales + 1.5))
+    image = render(gaussians, view, background=BACKGROUND, settings=SMOOTH)
+    weights = jax.jit(jax.grad(lambda image: whole_loss(image, view)))(image)
+    found = to_float64(fast_gradient(gaussians, *to_float32((view, BACKGROUND)), weights, settings=SMOOTH))
+    with jax.enable_x64(True):
+        loss = jax.jit(lambda image: whole_loss(image, view))
+        start = to_float64((gaussians, to_float32(view)))
+        for name in ("means", "quats", "log_scales", "opacity_logits", "sh", "T_cam_world"):
+            k = int(name == "T_cam_world")
+            step = np.random.default_rng(5).normal(size=getattr(start[k], name).shape)
+            step[3:] *= 1 - k  # the last row of a pose is not read
+
+            def value(by, name=name, k=k, step=step):
+                moved = list(start)
+                moved[k] = dataclasses.replace(start[k], **{name: getattr(start[k], name) + by * step})
+                return float(loss(jit_reference(*moved, background=BACKGROUND, settings=SMOOTH)))
+
+            slope = getattr(found[k], name)
+            assert abs((slope * step).sum() - (value(h) - value(-h)) / (2 * h)) < 1e-3 * np.linalg.norm(slope), name
 
 
 @given(SEEDS, st.permutations(range(24)))

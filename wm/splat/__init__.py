@@ -2,8 +2,9 @@
 
     render.py     render: one call from gaussians to an image, in and out of jit
     project.py    project -> Projected: ellipses on the image plane
-    tiles.py      plan_tiles -> TilePlan: which gaussians touch which tiles, front to back (host)
+    tiles.py      plan_tiles -> TilePlan: which gaussians touch which tiles, front to back (host); tiles_traced.py: in the graph
     composite.py  rasterize: alpha compositing over a plan, with its own derivative
+    checks.py     what is wrong with the arguments
     harmonics.py  the colour's dependence on direction
     _reference.py render_reference: the slow float64 twin of render
 
@@ -30,7 +31,8 @@ from wm.splat.render import render
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
 from wm.splat.scene_fit import SceneFit, fit_scene
 from wm.splat.ssim import ssim, ssim_map
-from wm.splat.tiles import TilePlan, plan_tiles
+from wm.splat.tiles import TilePlan, plan_tiles, plan_views
+from wm.splat.tiles_traced import TracedPlan, plan_tiles_traced
 from wm.splat.training import TrainingView
 
 __all__ = [
@@ -44,6 +46,7 @@ __all__ = [
     "ReprojectionError",
     "SceneFit",
     "TilePlan",
+    "TracedPlan",
     "TrainingView",
     "depth_error",
     "fit",
@@ -56,6 +59,8 @@ __all__ = [
     "one_surface",
     "overlap",
     "plan_tiles",
+    "plan_tiles_traced",
+    "plan_views",
     "project",
     "psnr",
     "rasterize",

@@ -1,4 +1,5 @@
-"""What the projection and its derivative share: how a gaussian's axes turn, and where the camera's slopes are clamped."""
+"""What the projection and its derivative share: how a gaussian's axes turn, where the camera's slopes are clamped, and by how
+much opacity makes up for the blur."""
 
 import functools
 
@@ -8,6 +9,10 @@ import jax.numpy as jnp
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.types import Camera
+
+COMPENSATION_FLOOR = 0.005**2
+"""Opacities are reduced to the root of this at most (gsplat's bound): the square root has no derivative at 0, and a gaussian that
+faint is below or near the alpha cut in any case."""
 
 
 def rotations(quats):
@@ -39,3 +44,9 @@ def clamped(slope, axis: int, camera: Camera, settings: RasterSettings):
     margin = (settings.frustum_margin - 1) * 0.5 * size / focal
     low, high = -centre / focal - margin, (size - centre) / focal + margin
     return jnp.clip(slope, low, high), (slope > low) & (slope < high)
+
+
+def compensation(sharp, blurred):
+    """sqrt(max(sharp / blurred, COMPENSATION_FLOOR)) of the determinants without and with blur, and where it is not floored."""
+    ratio = sharp / blurred
+    return jnp.sqrt(jnp.maximum(ratio, COMPENSATION_FLOOR)), ratio > COMPENSATION_FLOOR

@@ -10,33 +10,40 @@ l = (sqrt(yy / det), -xy / sqrt(det yy), 1 / sqrt(yy)):
 A log scale moves its column of M along itself. A turn by w in the gaussian's own axes moves B by B x w, so the torque is
 t = sum_i (dL/d B_i) x B_i, and dL/dq = 2 q (0, t) / |q|^2 as quaternions. The mean acts through mean2d, depth, the scale f / z of
 J and its slopes, as far as those are not clamped. Nothing is divided by a difference, so needles keep their digits.
+
+With `antialias` the opacity is o c, c^2 = N . N / det above its floor. Its cotangent g_o adds -h / det to dL/d det, and
+h / (N . N) to the derivative by N . N alone, h = g_o o c / 2.
 """
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool
 
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.splat._apart import apart
-from wm.splat._axes import by_largest, clamped, rotations
+from wm.splat._axes import by_largest, clamped, compensation, rotations
+from wm.splat._pose import to_camera
 from wm.types import Camera
 
 
-def pull_ellipses(means, quats, log_scales, camera: Camera, settings: RasterSettings, visible: Bool[Array, " n"], cotangent):
-    """Cotangents of means [3], quats [4] and log_scales [3] (rows of n) from those of mean2d, root and depth.
+def pull_ellipses(
+    means, quats, log_scales, opacity_logits, camera: Camera, settings: RasterSettings, visible: Bool[Array, " n"], cotangent
+):
+    """Cotangents of means [3], quats [4], log_scales [3] (rows of n) and opacity_logits from those of all but the colour.
 
     Args:
-        means, quats, log_scales: rows of n, finite.
+        means, quats, log_scales, opacity_logits: rows of n, finite.
         camera: float32 arrays.
-        settings: blur and frustum_margin are read.
+        settings: blur, frustum_margin and antialias are read.
         visible: where False, all results are 0.
-        cotangent: `Projected` whose mean2d, root and depth are 0 where not visible.
+        cotangent: `Projected` whose mean2d, root, opacity and depth are 0 where not visible.
     """
     never = camera.focal[0] == -jnp.inf
     R, f = camera.T_cam_world, camera.focal
 
     def place(means):
-        x, y, z = (sum(R[i, k] * means[k] for k in range(3)) + R[i, 3] for i in range(3))
+        x, y, z = to_camera(means, R)
         inverse = 1 / jnp.where(visible, z, 1.0)
         return jnp.where(visible, x, 0.0) * inverse, jnp.where(visible, y, 0.0) * inverse, inverse
 
@@ -47,6 +54,16 @@ def pull_ellipses(means, quats, log_scales, camera: Camera, settings: RasterSett
         RQ = [[sum(R[i, k] * Q[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
         slopes = [clamped(s, i, camera, settings)[0] for i, s in enumerate((a, b))]
         return [[f[i] * inverse * (RQ[i][j] - slopes[i] * RQ[2][j]) for j in range(3)] for i in range(2)], RQ[2]
+
+    def by_compensation(B, log_scales, opacity, g_opacity):
+        """c, and what it adds to dL/d det and to dL/d (N . N)."""
+        M = _scaled(B, log_scales)
+        N = _cross(*M)
+        sharp = _dot(N, N)
+        det = sharp + settings.blur * (_dot(M[0], M[0]) + _dot(M[1], M[1])) + settings.blur**2
+        scale, free = compensation(sharp, det)
+        h = jnp.where(free, 0.5 * g_opacity * opacity * scale, 0.0)
+        return scale, -h / det, h / jnp.where(free, sharp, 1.0)
 
     def by_covariance(B, log_scales, g):
         """dL/d det, dL/d xy, dL/d yy."""
@@ -59,7 +76,7 @@ def pull_ellipses(means, quats, log_scales, camera: Camera, settings: RasterSett
         g0, g1, g2 = g[0] * yy * root, -g[1] * xy * root, g[2] / jnp.sqrt(yy)  # g_k l_k
         return -0.5 * (g0 + g1) / det, -g[1] * root, 0.5 * (g0 - g1 - g2) / yy
 
-    def by_axes(B, log_scales, g_det, g_xy, g_yy):
+    def by_axes(B, log_scales, g_det, g_xy, g_yy, g_sharp=None):
         """dL/d M times the lengths, which is dL/d B, [2][3]."""
         M = _scaled(B, log_scales)
         N = _cross(*M)
@@ -67,6 +84,8 @@ def pull_ellipses(means, quats, log_scales, camera: Camera, settings: RasterSett
         toward, away = _cross(M[1], N), _cross(N, M[0])
         first = [2 * g_det * (toward[j] + settings.blur * M[0][j]) + g_xy * M[1][j] for j in range(3)]
         second = [2 * g_det * (away[j] + settings.blur * M[1][j]) + g_xy * M[0][j] + 2 * g_yy * M[1][j] for j in range(3)]
+        if g_sharp is not None:
+            first, second = ([x + 2 * g_sharp * y for x, y in zip(*rows)] for rows in ((first, toward), (second, away)))
         return [[row[j] * lengths[j] for j in range(3)] for row in (first, second)]
 
     def by_shape(B, g_B):
@@ -92,12 +111,17 @@ def pull_ellipses(means, quats, log_scales, camera: Camera, settings: RasterSett
         return [jnp.where(visible, R[0, k] * x + R[1, k] * y + R[2, k] * z, 0.0) for k in range(3)]
 
     B, third = apart(never, axes, means, quats)
-    g_cov = apart(never, by_covariance, B, log_scales, list(cotangent.root))
-    g_B = apart(never, by_axes, B, log_scales, *g_cov)
+    g_det, g_xy, g_yy = apart(never, by_covariance, B, log_scales, list(cotangent.root))
+    opacity, g_sharp = jax.nn.sigmoid(opacity_logits), None
+    g_logits = cotangent.opacity * opacity * (1 - opacity)
+    if settings.antialias:
+        scale, more, g_sharp = apart(never, by_compensation, B, log_scales, opacity, cotangent.opacity)
+        g_logits, g_det = g_logits * scale, g_det + more
+    g_B = apart(never, by_axes, B, log_scales, g_det, g_xy, g_yy, g_sharp)
     g_scales, torque = apart(never, by_shape, B, g_B)
     g_quats = apart(never, by_quats, quats, torque)
     g_means = apart(never, by_means, means, third, B, g_B, list(cotangent.mean2d), cotangent.depth)
-    return g_means, g_quats, g_scales
+    return g_means, g_quats, g_scales, g_logits
 
 
 def _scaled(B, log_scales):

@@ -4,15 +4,37 @@ It follows the equations as design.md section 5 writes them (covariance, its inv
 forms that the fast path rearranges them into. Differentiate it with `jax.grad`. Memory is O(pixels x gaussians).
 """
 
+from typing import Any
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
+from wm.splat._axes import COMPENSATION_FLOOR
 from wm.splat.harmonics import harmonics
 from wm.splat.project import DEFAULTS
-from wm.types import Camera, Gaussians, Render
+from wm.types import Camera, Gaussians, Render, record
+
+
+@record
+class Distance:
+    """The smallest relative distance of any value of a pixel from a threshold that it was compared with, [h, w]."""
+
+    alpha: Any  # of an alpha from alpha_min or alpha_max
+    transmittance: Any  # of a transmittance from transmittance_min
+
+
+@record
+class _Layers:
+    """Every gaussian at every pixel, front to back."""
+
+    unclamped: Any  # [h, w, n] opacity exp(-q), 0 behind the camera
+    alpha: Any  # [h, w, n] the same, cut and clamped
+    transmittance: Any  # [h, w, n] in front of it
+    color: Any  # [n, 3]
+    depth: Any  # [n]
 
 
 def render_reference(
@@ -27,35 +49,63 @@ def render_reference(
     Raises:
         RuntimeError: float64 is not enabled.
     """
+    layers = _layers(gaussians, camera, settings)
+    alpha, T = layers.alpha, layers.transmittance
+    w = jnp.where(settings.transmittance_min <= T, T * alpha, 0.0)
+    total = w.sum(-1)
+    seen = total > 0
+    depth = jnp.where(seen, w @ layers.depth / jnp.where(seen, total, 1.0), 0.0) if settings.depth else jnp.zeros_like(total)
+    behind = jnp.zeros(3) if background is None else jnp.asarray(background, jnp.float64)
+    return Render(rgb=w @ layers.color + (1 - total)[..., None] * behind, depth=depth, alpha=total)
+
+
+def distance_to_thresholds(gaussians: Gaussians, camera: Camera, *, settings: RasterSettings = DEFAULTS) -> Distance:
+    """How close each pixel of `render_reference` came to deciding otherwise; under x64 as well.
+
+    Only what the pixel still looked at counts: behind the gaussian that finished it, nothing does.
+    """
+    layers = _layers(gaussians, camera, settings)
+    stop = settings.transmittance_min
+    # a pixel whose transmittance is just below the stop may go on in other arithmetic: that is the distance of its stop
+    open_ = layers.transmittance >= stop
+
+    def smallest(distance):
+        return jnp.min(jnp.where(open_, distance, jnp.inf), axis=-1, initial=jnp.inf)
+
+    cuts = [jnp.abs(layers.unclamped / threshold - 1) for threshold in (settings.alpha_min, settings.alpha_max)]
+    after = layers.transmittance * (1 - layers.alpha)
+    stops = jnp.abs(after / stop - 1) if stop > 0 else jnp.full_like(after, jnp.inf)
+    return Distance(alpha=smallest(jnp.minimum(*cuts)), transmittance=smallest(stops))
+
+
+def _layers(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> _Layers:
     if jnp.zeros(()).dtype != jnp.float64:
-        raise RuntimeError("render_reference computes in float64: call it under `with jax.enable_x64(True)`")
+        raise RuntimeError("the twin computes in float64: call it under `with jax.enable_x64(True)`")
     gaussians, camera = jax.tree.map(lambda x: jnp.asarray(x, jnp.float64), (gaussians, camera))
     R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
     p = gaussians.means @ R.T + t
     front = p[:, 2] > settings.near
     p = jnp.where(front[:, None], p, jnp.array([0.0, 0.0, 1.0]))
     z = p[:, 2]
-    sigma = _covariance(gaussians, R, p, camera, settings)
+    sharp = _covariance(gaussians, R, p, camera, settings)
+    sigma = sharp + settings.blur * jnp.eye(2)
     inverse = jnp.linalg.inv(sigma)
     mean2d = p[:, :2] / z[:, None] * camera.focal + camera.principal
     opacity = jax.nn.sigmoid(gaussians.opacity_logits)
+    if settings.antialias:
+        ratio = jnp.linalg.det(sharp) / jnp.linalg.det(sigma)
+        opacity = opacity * jnp.sqrt(jnp.maximum(ratio, COMPENSATION_FLOOR))
     color = _color(gaussians, -R.T @ t)
 
     j, i = jnp.meshgrid(jnp.arange(camera.height) + 0.5, jnp.arange(camera.width) + 0.5, indexing="ij")
     d = jnp.stack([i, j], -1)[:, :, None] - mean2d  # [h, w, n, 2]
     q = 0.5 * jnp.einsum("hwni,nij,hwnj->hwn", d, inverse, d)
-    alpha = jnp.minimum(settings.alpha_max, opacity * jnp.exp(-q))
-    alpha = jnp.where((alpha >= settings.alpha_min) & front, alpha, 0.0)
     order = jnp.argsort(z, stable=True)
-    alpha, color, z = alpha[..., order], color[order], z[order]
+    unclamped = jnp.where(front, opacity * jnp.exp(-q), 0.0)[..., order]
+    alpha = jnp.where(unclamped >= settings.alpha_min, jnp.minimum(settings.alpha_max, unclamped), 0.0)
     passed = jnp.cumprod(1 - alpha, axis=-1)
     T = jnp.concatenate([jnp.ones_like(passed[..., :1]), passed[..., :-1]], -1)
-    w = jnp.where(settings.transmittance_min <= T, T * alpha, 0.0)
-    total = w.sum(-1)
-    seen = total > 0
-    depth = jnp.where(seen, w @ z / jnp.where(seen, total, 1.0), 0.0) if settings.depth else jnp.zeros_like(total)
-    behind = jnp.zeros(3) if background is None else jnp.asarray(background, jnp.float64)
-    return Render(rgb=w @ color + (1 - total)[..., None] * behind, depth=depth, alpha=total)
+    return _Layers(unclamped=unclamped, alpha=alpha, transmittance=T, color=color[order], depth=z[order])
 
 
 def _covariance(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSettings):
@@ -76,7 +126,7 @@ def _covariance(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSett
     scale = camera.focal / p[:, 2:]
     J = jnp.concatenate([scale[:, :, None] * jnp.eye(2), (-scale * slope)[:, :, None]], -1)
     M = J @ R @ Q @ jax.vmap(jnp.diag)(jnp.exp(gaussians.log_scales))
-    return M @ M.transpose(0, 2, 1) + settings.blur * jnp.eye(2)
+    return M @ M.transpose(0, 2, 1)
 
 
 def _color(gaussians: Gaussians, centre):

@@ -70,7 +70,7 @@ def rasterize(
         background: colour behind everything; None is black.
 
     Returns:
-        The image. With `settings.depth` False its depth is 0 everywhere and costs nothing.
+        The image, float32 even where float64 is enabled. With `settings.depth` False its depth is 0 everywhere and costs nothing.
     """
     composite = _composite(_table(projected, settings), plan, -(-width // settings.tile), settings)
     t = _image(composite.transmittance, plan, width, height, settings.tile)
@@ -87,7 +87,9 @@ def _table(projected: Projected, settings: RasterSettings) -> Float[Array, "rows
     culled = projected.opacity <= 0
     log_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
     features = [projected.color, projected.depth[None]] if settings.depth else [projected.color]
-    columns = jnp.concatenate([projected.mean2d, projected.root * np.sqrt(0.5 * np.log2(np.e)), log_opacity[None], *features])
+    columns = jnp.concatenate(
+        [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log_opacity[None], *features]
+    )
     return jnp.pad(columns.T, ((0, 1), (0, 0)), constant_values=0.0).at[-1, GEOMETRY - 1].set(-jnp.inf)
 
 
@@ -116,7 +118,7 @@ def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> C
             goes_on = (length == i - settings.chunk) & (i < count) & (jnp.max(t, 1) >= settings.transmittance_min)
             return i, jnp.where(goes_on, i, length), t, F
 
-        t = jnp.ones((tile.shape[0], settings.tile**2))
+        t = jnp.ones((tile.shape[0], settings.tile**2), jnp.float32)
         state = (jnp.int32(0), jnp.zeros_like(count), t, [jnp.zeros_like(t)] * features)
         _, length, t, F = jax.lax.while_loop(lambda state: jnp.max(jnp.where(state[1] == state[0], count, 0)) > 0, step, state)
         return Composite(transmittance=t, features=jnp.stack(F, 1), length=jnp.minimum(length + settings.chunk, count))
@@ -188,7 +190,7 @@ _composite.defvjp(_composite_fwd, _composite_bwd)
 
 def _origins(tile, columns: int, settings: RasterSettings):
     """Centres of tiles in pixels, [lanes, 2]."""
-    return (jnp.stack([tile % columns, tile // columns], -1) + 0.5) * settings.tile
+    return (jnp.stack([tile % columns, tile // columns], -1) + jnp.float32(0.5)) * settings.tile
 
 
 def _offsets(tile: int):

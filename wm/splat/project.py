@@ -6,6 +6,7 @@ Notation: p = R x + t (camera axes), (a, b) = p_xy / p_z, S = diag(exp(log_scale
     M = J R Q S (2 x 3),  J = [[fx / z, 0, -fx a' / z], [0, fy / z, -fy b' / z]],  a', b' clamped near the frustum
     Sigma = M M^T + blur I = [[xx, xy], [xy, yy]],  det = sum of squared 2 x 2 minors of M + blur trace(M M^T) + blur^2
     q = 1/2 d^T Sigma^-1 d = 1/2 ((l0 dx + l1 dy)^2 + (l2 dy)^2),  l = (sqrt(yy / det), -xy / sqrt(det yy), 1 / sqrt(yy))
+    o = sigmoid(opacity_logits), times c = sqrt(max(det M M^T / det, COMPENSATION_FLOOR)) with `antialias`
 
 The determinant as a sum of squares (Cauchy-Binet) and q as a sum of squares (l is the Cholesky factor of the conic) keep their
 digits for needles, where xx yy - xy^2 and the expanded form cancel. A gaussian is culled unless every comparison that keeps it
@@ -23,8 +24,10 @@ from jaxtyping import Array, Bool, Float
 
 from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
-from wm.splat._axes import clamped, rotations
+from wm.splat._axes import clamped, compensation, rotations
+from wm.splat._pose import from_centre, to_camera
 from wm.splat._pullback import pull_ellipses
+from wm.splat.checks import DEGREES, check_types
 from wm.splat.harmonics import harmonics
 from wm.types import Camera, Gaussians, record
 
@@ -41,7 +44,7 @@ class Projected:
 
     mean2d: Any  # [2, n] pixels
     root: Any  # [3, n] l, the Cholesky factor of the conic, px^-1: q = 1/2 ((l0 dx + l1 dy)^2 + (l2 dy)^2)
-    opacity: Any  # [n]
+    opacity: Any  # [n] o, compensated with `antialias`
     color: Any  # [3, n] sRGB-encoded, seen from this camera
     depth: Any  # [n] z-depth of the centre, metres
     extent: Any  # [2, n] half width and half height of the ellipse where alpha falls to `alpha_min`, px; no gradient
@@ -53,14 +56,19 @@ def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEF
     Args:
         gaussians: n gaussians in world space, NumPy or JAX.
         camera: where they are seen from; its arrays may be NumPy.
-        settings: blur, near, alpha_min and frustum_margin are read here.
+        settings: blur, near, alpha_min, frustum_margin and antialias are read here.
 
     Returns:
         The ellipses, in the order of the gaussians.
 
+    Raises:
+        TypeError, ValueError: a dtype or a shape is wrong, while tracing.
+
     Source: Zwicker et al., "EWA Splatting" (2002); the clamp, blur and cut follow Kerbl et al. (2023), the clamp made aware
-    of the principal point. The bounding ellipse is exact for the alpha cut, not 3 sigma.
+    of the principal point. The bounding ellipse is exact for the alpha cut, not 3 sigma. `antialias` is the 2D filter of
+    Yu et al., "Mip-Splatting" (2024), section 5.2.
     """
+    check_types(gaussians, camera, settings)
     to_float32 = functools.partial(jax.tree.map, lambda x: jnp.asarray(x, jnp.float32))
     return _project(to_float32(gaussians), to_float32(camera), settings)
 
@@ -85,18 +93,20 @@ def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
     # reach the camera's gradient, which sums over all.
     gaussians, camera, visible = residuals
     rows = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), _rows(gaussians))
-    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), dataclasses.replace(cotangent, extent=jnp.zeros((2, 1))))
+    no_extent = dataclasses.replace(cotangent, extent=jnp.zeros((2, 1), jnp.float32))
+    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), no_extent)
 
     means, quats, log_scales, opacity_logits, sh = rows
-    by_means, by_quats, by_scales = pull_ellipses(means, quats, log_scales, camera, settings, visible, masked)
+    by_means, by_quats, by_scales, by_logits = pull_ellipses(
+        means, quats, log_scales, opacity_logits, camera, settings, visible, masked
+    )
     _, pull_colors = jax.vjp(lambda sh, means: _colors(sh, means, camera.T_cam_world), sh, means)
     by_sh, by_direction = pull_colors(masked.color)
-    opacity = jax.nn.sigmoid(opacity_logits)
     by_gaussians = Gaussians(
         means=jnp.stack([shift + turn for shift, turn in zip(by_means, by_direction)], 1),
         quats=jnp.stack(by_quats, 1),
         log_scales=jnp.stack(by_scales, 1),
-        opacity_logits=masked.opacity * opacity * (1 - opacity),
+        opacity_logits=by_logits,
         sh=jnp.stack([band.T for band in by_sh], 1),
     )
     # by the camera there are few numbers and many sums: the plain derivative, compiled only where somebody asks for it
@@ -114,7 +124,7 @@ def _rows(gaussians: Gaussians):
     """
 
     def split(x):
-        columns = jnp.matmul(jnp.eye(x.shape[1]), x.T, precision="highest")
+        columns = jnp.matmul(jnp.eye(x.shape[1], dtype=x.dtype), x.T, precision="highest")
         return [columns[i] for i in range(x.shape[1])]
 
     sh = [gaussians.sh[:, k].T for k in range(gaussians.sh.shape[1])]
@@ -127,7 +137,7 @@ def _ellipses(
     """The equations above, nothing culled, and the diagonal of Sigma; where `visible` is False a harmless gaussian stands in."""
     means, quats, log_scales, opacity_logits, sh = rows
     T = camera.T_cam_world
-    px, py, pz = (sum(T[i, k] * means[k] for k in range(3)) + T[i, 3] for i in range(3))
+    px, py, pz = to_camera(means, T)
     if visible is not None:
         px, py, pz = jnp.where(visible, px, 0.0), jnp.where(visible, py, 0.0), jnp.where(visible, pz, 1.0)
     a, b = px / pz, py / pz
@@ -136,13 +146,17 @@ def _ellipses(
     M = _image_axes(quats, log_scales, T, (fx / pz, fy / pz), slopes)
     xx, xy, yy = (sum(p * q for p, q in zip(M[i], M[j])) for i, j in ((0, 0), (0, 1), (1, 1)))
     minors = (M[0][i] * M[1][j] - M[0][j] * M[1][i] for i, j in ((0, 1), (0, 2), (1, 2)))
-    det = sum(m * m for m in minors) + settings.blur * (xx + yy) + settings.blur**2
+    sharp = sum(m * m for m in minors)
+    det = sharp + settings.blur * (xx + yy) + settings.blur**2
+    opacity = jax.nn.sigmoid(opacity_logits)
+    if settings.antialias:
+        opacity = opacity * compensation(sharp, det)[0]
     xx, yy = xx + settings.blur, yy + settings.blur
     mean2d = jnp.stack([fx * a + camera.principal[0], fy * b + camera.principal[1]])
     projected = Projected(
         mean2d=mean2d,
         root=jnp.stack([jnp.sqrt(yy / det), -xy / jnp.sqrt(det * yy), 1 / jnp.sqrt(yy)]),
-        opacity=jax.nn.sigmoid(opacity_logits),
+        opacity=opacity,
         color=_colors(sh, means, T),
         depth=pz,
         extent=jnp.zeros_like(mean2d),
@@ -161,13 +175,10 @@ def _image_axes(quats, log_scales, T, scale, slope):
 
 def _colors(sh, x_world, T):
     """0.5 + sum_k sh_k Y_k(direction from the camera), (3, n). With one coefficient no direction is computed."""
-    degree = {1: 0, 4: 1, 9: 2, 16: 3}.get(len(sh))
-    if degree is None:
-        raise ValueError(f"gaussians.sh has {len(sh)} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right")
+    degree = DEGREES[len(sh)]
     if degree == 0:
         return 0.5 + harmonics(None, 0)[0] * sh[0]
-    # the camera stands at -R^T t
-    x, y, z = (x_world[k] + sum(T[i, k] * T[i, 3] for i in range(3)) for k in range(3))
+    x, y, z = from_centre(x_world, T)
     length = safe_sqrt(x * x + y * y + z * z)
     direction = jnp.stack([safe_div(x, length), safe_div(y, length), safe_div(z, length)])
     return 0.5 + sum(Y * band for Y, band in zip(harmonics(direction, degree), sh))

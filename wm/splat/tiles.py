@@ -1,4 +1,4 @@
-"""Which gaussians touch which tiles, front to back: planned on the host, in NumPy, once per view.
+"""Which gaussians touch which tiles, front to back: planned on the host, in NumPy, once per view (in the graph: tiles_traced.py).
 
 Tiers of work: per gaussian (bounds, depth sort), per (gaussian, row of tiles) (the span of the ellipse in that row), per entry
 (gaussian, tile) (one counting sort by tile). An entry is listed only if the ellipse alpha = alpha_min meets the rows of pixel
@@ -8,23 +8,21 @@ Sorts are stable: depths as two argsorts of uint16 keys, which NumPy does by rad
 from coordinates to rows, which is a counting sort. Order in a tile: by depth, equal depths by index.
 """
 
+import dataclasses
 import math
 from typing import Any
 
+import jax
 import numpy as np
 from scipy.sparse import coo_array
 
 from wm.schema import RasterSettings
+from wm.splat._spans import blocks, chord, chord_terms, slack, tile_span
 from wm.splat.project import DEFAULTS, Projected
 from wm.types import record
 
 GROWTH, BASE = 1.5, 4096
 """Capacities are BASE * GROWTH^k: padded sizes that differ give few distinct shapes, hence few compilations."""
-
-SLACK, RELATIVE_SLACK = 1e-3, 1e-6
-"""Ellipses are widened by this many pixels, and by this share of their size and distance from the origin, so that rounding
-never leaves out an entry that the compositing would count."""
-
 
 STRIP = 1 << 14
 """Rows of tiles worked on at a time: temporaries that stay in the cache, and below the size that the allocator maps anew."""
@@ -64,12 +62,13 @@ def plan_tiles(
         for x in (projected.mean2d, projected.root, projected.opacity, projected.depth, projected.extent)
     )
     columns, rows = -(-width // settings.tile), -(-height // settings.tile)
-    slack = SLACK + RELATIVE_SLACK * (np.abs(mean) + extent)
-    shown = (extent > 0) & (mean + extent > -slack) & (mean - extent < np.array([[width], [height]], np.float32) + slack)
+    reach = extent + slack(mean, extent, np)
+    shown = (extent > 0) & (mean + reach > 0) & (mean - reach < np.array([[width], [height]], np.float32))
     order = _front_to_back(depth, np.flatnonzero(shown.all(0) & (opacity > 0)))
     mean, root, opacity, extent = (np.take(x, order, axis=-1) for x in (mean, root, opacity, extent))
     gaussian, row = _rows_touched(mean[1], extent[1], height, settings.tile)
-    first, spans = _columns_touched(gaussian, row, mean, root, opacity, extent, width, settings)
+    terms = chord_terms(mean, root, opacity, extent, settings, np)
+    first, spans = _columns_touched(gaussian, row, terms, width, settings.tile)
     ids = np.repeat(order[gaussian], spans)
     tile = _runs(row * np.int32(columns) + first, spans)
     # the rows of this matrix are the tiles, its columns the gaussians in the order of `ids`; no entry comes twice
@@ -79,6 +78,25 @@ def plan_tiles(
     padded = np.full(_capacity(len(ids), capacity), len(depth), np.int32)
     padded[: len(ids)] = lists.indices
     return TilePlan(ids=padded, **_blocks(np.diff(lists.indptr), settings.block))
+
+
+def plan_views(projected: Projected, width: int, height: int, settings: RasterSettings = DEFAULTS) -> TilePlan:
+    """The plans of several views of one size, stacked on a first axis: what `rasterize` under vmap or shard_map takes.
+
+    Args:
+        projected: of `project` under vmap or shard_map: every leaf has a first axis of views, at least one.
+        width, height, settings: as for `plan_tiles`, the same for all views.
+
+    Returns:
+        The plans, NumPy arrays with a first axis of views, with room for the fullest of them.
+    """
+    on_host = jax.tree.map(np.asarray, projected)
+    parts = [jax.tree.map(lambda x, k=k: x[k], on_host) for k in range(len(on_host.opacity))]
+    plans = [plan_tiles(part, width, height, settings) for part in parts]
+    capacity = max(len(plan.ids) for plan in plans)
+    n = on_host.opacity.shape[1]
+    ids = [np.pad(plan.ids, (0, capacity - len(plan.ids)), constant_values=n) for plan in plans]
+    return jax.tree.map(lambda *leaves: np.stack(leaves), *(dataclasses.replace(plan, ids=row) for plan, row in zip(plans, ids)))
 
 
 def _front_to_back(depth, visible):
@@ -96,41 +114,19 @@ def _runs(first, lengths):
     return np.repeat((first - (ends - lengths)).astype(dtype), lengths) + np.arange(total, dtype=dtype)
 
 
-def _tile_span(low, high, size: int, tile: int):
-    """First tile whose pixel centres lie in [low, high], and how many, within an image of `size` pixels."""
-    first = np.ceil(np.clip(low, 0, size) - 0.5).astype(np.int32)  # pixels
-    last = np.floor(np.clip(high, 0, size) - 0.5).astype(np.int32)
-    return first // tile, np.where(last >= first, last // tile + 1 - first // tile, 0)
-
-
 def _rows_touched(centre, half_height, height: int, tile: int):
     """(index into the given gaussians, row of tiles) of every row that an ellipse's box meets, in the given order."""
-    slack = SLACK + RELATIVE_SLACK * (np.abs(centre) + half_height)
-    first, spans = _tile_span(centre - half_height - slack, centre + half_height + slack, height, tile)
+    reach = half_height + slack(centre, half_height, np)
+    first, spans = tile_span(centre - reach, centre + reach, height, tile, np)
     return np.repeat(np.arange(len(spans), dtype=np.int32), spans), _runs(first, spans)
 
 
-def _columns_touched(gaussian, row, mean, root, opacity, extent, width: int, settings: RasterSettings):
-    """First column of tiles that each ellipse meets within each row of tiles, and how many.
-
-    On (l0 x + l1 y)^2 + (l2 y)^2 = r^2 the rightmost point has y = -l0 l1 / (l1^2 + l2^2) x_max; within a band of y that does
-    not contain it, x is largest at the band's end nearest to it.
-    """
-    l0, l1, l2 = root
-    r2 = 2 * np.log(opacity / np.float32(settings.alpha_min))
-    slack = SLACK + RELATIVE_SLACK * (np.abs(mean[0]) + extent[0])
-    y_right = -l0 * l1 / (l1 * l1 + l2 * l2) * extent[0]
-    per_gaussian = np.stack([mean[0], mean[1], l1 / l0, 1 / l0, l2, r2, y_right, slack])
+def _columns_touched(gaussian, row, terms, width: int, tile: int):
+    """First column of tiles that each ellipse meets within each row of tiles, and how many."""
     first, spans = np.empty_like(row), np.empty_like(row)
     for part in (slice(i, i + STRIP) for i in range(0, len(row), STRIP)):
-        mx, my, tilt, width_of_1, l2, r2, y_right, slack = np.take(per_gaussian, gaussian[part], axis=1)
-        low = row[part].astype(np.float32) * settings.tile + 0.5 - my
-        high = low + (settings.tile - 1)
-        left, right = (
-            mx - tilt * y + sign * (width_of_1 * np.sqrt(np.maximum(r2 - (l2 * y) ** 2, 0)) + slack)
-            for sign, y in ((-1, np.clip(-y_right, low, high)), (1, np.clip(y_right, low, high)))
-        )
-        first[part], spans[part] = _tile_span(left, right, width, settings.tile)
+        left, right = chord(np.take(terms, gaussian[part], axis=1), row[part], tile, np)
+        first[part], spans[part] = tile_span(left, right, width, tile, np)
     return first, spans
 
 
@@ -142,21 +138,7 @@ def _capacity(entries: int, wanted: int | None) -> int:
 
 
 def _blocks(count, lanes: int) -> dict:
-    """Tiles by falling length of their lists, so that the lanes of a block end together."""
-    tiles = len(count)
-    lanes = min(lanes, tiles)
-    blocks = -(-tiles // lanes)
-    start = np.cumsum(count) - count
     order = np.argsort(-count, kind="stable")
-    padded = np.concatenate([order, np.full(blocks * lanes - tiles, order[-1])])
-    lengths = count[padded]
-    lengths[tiles:] = 0
-    slot = np.empty(tiles, np.int32)
-    slot[order] = np.arange(tiles, dtype=np.int32)
-    shape = (blocks, lanes)
-    return {
-        "tile": padded.reshape(shape).astype(np.int32),
-        "start": start[padded].reshape(shape).astype(np.int32),
-        "count": lengths.reshape(shape).astype(np.int32),
-        "slot": slot,
-    }
+    slot = np.empty(len(count), np.int32)
+    slot[order] = np.arange(len(count), dtype=np.int32)
+    return {**blocks(count, order, lanes, np), "slot": slot}

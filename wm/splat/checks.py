@@ -1,0 +1,120 @@
+"""What is wrong with the arguments of a render, said once and clearly: shapes and dtypes when traced, values on request.
+
+Shapes and dtypes are known while tracing, so checking them costs nothing in a compiled program. Values are looked at on the host
+where they are there, and inside jit by `jax.experimental.checkify`.
+"""
+
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.core import Tracer
+from jax.experimental import checkify
+
+from wm.schema import RasterSettings
+from wm.types import Camera, Gaussians
+
+DEGREES = {1: 0, 4: 1, 9: 2, 16: 3}
+"""Degree of the spherical harmonics by their number."""
+
+_SHAPES = {"means": ("n", 3), "quats": ("n", 4), "log_scales": ("n", 3), "opacity_logits": ("n",), "sh": ("n", "k", 3)}
+_CAMERA = {"T_cam_world": (4, 4), "focal": (2,), "principal": (2,)}
+
+
+def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> None:
+    """Raises where shapes, dtypes or constants cannot be rendered; looks at no value, so it runs while tracing.
+
+    Raises:
+        TypeError: a leaf is no array of real floating-point numbers.
+        ValueError: a shape, the image size or a constant is wrong.
+    """
+    for name, shape in _SHAPES.items():
+        _check_leaf(f"gaussians.{name}", getattr(gaussians, name), shape)
+    for name, shape in _CAMERA.items():
+        _check_leaf(f"camera.{name}", getattr(camera, name), shape)
+    rows = {name: getattr(gaussians, name).shape[0] for name in _SHAPES}
+    if len(set(rows.values())) > 1:
+        raise ValueError(f"the leaves of gaussians have different lengths {rows}; one row a gaussian in each would be right")
+    if gaussians.sh.shape[1] not in DEGREES:
+        raise ValueError(
+            f"gaussians.sh has {gaussians.sh.shape[1]} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right"
+        )
+    if min(camera.width, camera.height) < 1:
+        raise ValueError(f"camera has {camera.width} x {camera.height} pixels; at least 1 x 1 would be right")
+    if not 1e-30 <= settings.alpha_min < settings.alpha_max <= 1:
+        raise ValueError(
+            f"settings.alpha_min {settings.alpha_min!r} and alpha_max {settings.alpha_max!r} are out of order; "
+            "1e-30 <= alpha_min < alpha_max <= 1 would be right"
+        )
+
+
+def check_background(background: Any, camera: Camera) -> None:
+    """Raises TypeError or ValueError unless a background is one colour or one a pixel, in floating-point numbers."""
+    image = (camera.height, camera.width, 3)
+    _check_dtype("background", background)
+    if background.shape not in ((3,), image):
+        raise ValueError(f"background has shape {background.shape}; (3,) or {image} (height, width, 3) would be right")
+
+
+def check_values(gaussians: Gaussians, camera: Camera, background: Any = None) -> None:
+    """Raises where a number is not finite or a focal length not positive; inside jit it is a check of `checkify`.
+
+    Raises:
+        ValueError: naming the leaf and its first bad row. Inside jit: the error that `checkify.checkify` returns.
+    """
+    for name in _SHAPES:
+        _require(_is_finite, f"gaussians.{name}", getattr(gaussians, name), "finite numbers")
+    if background is not None:
+        _require(_is_finite, "background", background, "finite numbers")
+    _require_camera(camera)
+
+
+def check_camera(camera: Camera) -> None:
+    """`check_values` of a camera, where its numbers are there to be looked at; a bad one would show as an empty image."""
+    if not any(isinstance(x, Tracer) for x in jax.tree.leaves(camera)):
+        _require_camera(camera)
+
+
+def _require_camera(camera: Camera) -> None:
+    for name in _CAMERA:
+        _require(_is_finite, f"camera.{name}", getattr(camera, name), "finite numbers")
+    _require(_is_positive, "camera.focal", camera.focal, "positive focal lengths")
+
+
+def _is_finite(x, xp: ModuleType):
+    return xp.isfinite(x)
+
+
+def _is_positive(x, xp: ModuleType):
+    return x > 0
+
+
+def _require(is_good: Callable, name: str, x: Any, wanted: str) -> None:
+    traced = isinstance(x, Tracer)
+    xp = jnp if traced else np
+    x = xp.asarray(x)
+    if not x.size:
+        return
+    rows = is_good(x, xp).reshape(x.shape[0], -1).all(1)
+    first = xp.argmin(rows)
+    if traced:
+        checkify.check(rows.all(), f"{name}[{{row}}] is bad; {wanted} would be right", row=first)
+    elif not rows.all():
+        raise ValueError(f"{name}[{first}] is {x[first]}; {wanted} would be right")
+
+
+def _check_leaf(name: str, x: Any, shape: tuple) -> None:
+    _check_dtype(name, x)
+    fits = len(x.shape) == len(shape) and all(isinstance(a, str) or a == b for a, b in zip(shape, x.shape))
+    if not fits:
+        raise ValueError(f"{name} has shape {tuple(x.shape)}; ({', '.join(map(str, shape))}) would be right")
+
+
+def _check_dtype(name: str, x: Any) -> None:
+    if not hasattr(x, "dtype"):
+        raise TypeError(f"{name} is a {type(x).__name__}; an array would be right")
+    if not jnp.issubdtype(x.dtype, jnp.floating):
+        raise TypeError(f"{name} has dtype {x.dtype}; floating-point numbers would be right")
