@@ -4,6 +4,7 @@ import dataclasses
 
 import jax
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,6 +30,7 @@ def test_values_are_the_twins(seed):
     np.testing.assert_allclose(found.alpha, exact.alpha, atol=1e-5)
 
 
+@pytest.mark.slow
 @given(SEEDS)
 @settings(max_examples=8)
 def test_gradients_are_the_twins(seed):

@@ -37,6 +37,7 @@ def heldout_psnr(views, **changes):
     return result.history[-1].psnr
 
 
+@pytest.mark.slow
 def test_views_that_drift_are_fitted_better_with_it_and_views_that_do_not_lose_nothing():
     drift = {on: heldout_psnr(drifting(VIEWS), exposure=on) for on in (False, True)}
     steady = {on: heldout_psnr(VIEWS, exposure=on) for on in (False, True)}

@@ -135,12 +135,10 @@ def test_order_of_the_gaussians_changes_nothing(seed, order):
     chex.assert_trees_all_equal(render(gaussians, view), render(shuffled, view))
 
 
-def test_tile_chunk_and_block_change_nothing():
+@pytest.mark.slow
+def test_gradients_are_the_same_for_any_tile_chunk_and_block():
     arguments = to_float32((cloud(degree=3, opaque=9.0), camera(seed=8), BACKGROUND, cotangent(camera())))
     split = RasterSettings(tile=4, chunk=3, block=2)
-    a, b = render(*arguments[:2]), render(*arguments[:2], settings=split)
-    np.testing.assert_allclose(a.rgb, b.rgb, atol=2e-6)
-    np.testing.assert_allclose(a.alpha, b.alpha, atol=2e-6)
     assert worst(fast_gradient(*arguments, settings=split), fast_gradient(*arguments, settings=DEFAULT)) < 1e-4
 
 

@@ -5,7 +5,8 @@ import pytest
 from tests.splat.stability import CASES
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * case.slow) for name, case in CASES.items()])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
 def test_the_promise_is_kept(name):
     case = CASES[name]
     errors = case.measure()
