@@ -66,7 +66,9 @@ def _worth(times: Int[np.ndarray, "p"]) -> Float[np.ndarray, "p"]:
     return VALUES[np.minimum(times, len(VALUES) - 1)].astype(np.float32)
 
 
-def _masks(scene: RayScene, points: SurfacePoints, aims: Aims, half_extent: tuple[float, float]) -> Float[np.ndarray, "k p"]:
+def _masks(
+    scene: RayScene, points: SurfacePoints, aims: Aims, half_extent: tuple[float, float]
+) -> Float[np.ndarray, "k p"]:
     """1 where a view sees a point, else 0 (floats, for the sums are matrix products); views at one place share shadow rays."""
     places, place = np.unique(aims.eyes, axis=0, return_inverse=True)
     seen = np.zeros((len(aims.eyes), len(points.face)), np.float32)

@@ -32,7 +32,9 @@ _APART = 0.1
 _DEFAULTS = CameraSettings()
 
 
-def place_heldout(plan: FloorPlan, mesh: Mesh, views: Sequence[View], settings: CameraSettings = _DEFAULTS) -> list[View]:
+def place_heldout(
+    plan: FloorPlan, mesh: Mesh, views: Sequence[View], settings: CameraSettings = _DEFAULTS
+) -> list[View]:
     """`heldout_per_room` views of every room, in free air, at least 0.1 m from any training camera; fewer where none is left.
 
     Args:

@@ -39,7 +39,9 @@ class Navigability:
     cell: float
 
 
-def navigability(plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS) -> Navigability:
+def navigability(
+    plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS
+) -> Navigability:
     """The share of the free floor that can be reached from its largest part.
 
     Obstacles are objects that stand on the floor or on one another (support "floor" or "object"), by the outline of what is
@@ -72,7 +74,9 @@ def outlines(things: Iterable[Float[np.ndarray, "_ 3"]], low: float, high: float
     return shapely.union_all(hulls)
 
 
-def body_floor(plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3"]], *, height: float, radius: float) -> BaseGeometry:
+def body_floor(
+    plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3"]], *, height: float, radius: float
+) -> BaseGeometry:
     """Where the centre of a body of this height and radius can be among these things."""
     return walkable_floor(plan).difference(outlines(things, FLAT, height)).buffer(-radius)
 

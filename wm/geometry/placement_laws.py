@@ -88,7 +88,7 @@ def _reach_of(site: Site, blocked: BaseGeometry) -> list[frozenset[int]]:
 
 def _trunk(thing: SceneObject) -> _Trunk:
     z = thing.vertices[:, 2]
-    return _Trunk(shapely.convex_hull(shapely.multipoints(thing.vertices[:, :2])), float(z.min()), float(z.max()))
+    return _Trunk(shapely.MultiPoint(thing.vertices[:, :2]).convex_hull, float(z.min()), float(z.max()))
 
 
 def _penetrate(a: _Trunk, b: _Trunk) -> bool:

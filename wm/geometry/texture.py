@@ -176,7 +176,9 @@ def _purity(shown: np.ndarray) -> np.ndarray:
     return (same / np.float32(9)) ** 2
 
 
-def _view_weight(atlas: Atlas, camera: Camera, chart: int, projected: _Projected, settings: TextureSettings) -> np.ndarray:
+def _view_weight(
+    atlas: Atlas, camera: Camera, chart: int, projected: _Projected, settings: TextureSettings
+) -> np.ndarray:
     """[n] float32: facing * resolution * fade."""
     R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
     above = np.float32((-R.T @ t - atlas.chart_origin[chart]) @ atlas.chart_normal[chart])  # metres from plane to eye

@@ -129,7 +129,9 @@ def _into(spot: np.ndarray, inward: np.ndarray, middle: np.ndarray) -> np.ndarra
     return spot + np.append(np.cos(angle) * inward + np.sin(angle) * aside, -np.tan(np.radians(5.0)))
 
 
-def _room_cameras(plan: FloorPlan, air: RoomAir, points: SurfacePoints, settings: CameraSettings) -> dict[str, list[Camera]]:
+def _room_cameras(
+    plan: FloorPlan, air: RoomAir, points: SurfacePoints, settings: CameraSettings
+) -> dict[str, list[Camera]]:
     sides = short_sides(air)
     bootstrap = settle(air, _at(sides, air.eye_height), _level(air), settings, depth=_BOOTSTRAP * depth_wanted(air))
     doors = [portal for portal in portals(plan) if portal.kind != "window" and air.index in portal.rooms and settings.doorway]

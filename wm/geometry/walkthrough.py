@@ -46,7 +46,9 @@ class _Floor:
     radius: float
 
 
-def walkthrough(plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS, *, fps: int, speed: float) -> list[Camera]:
+def walkthrough(
+    plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS, *, fps: int, speed: float
+) -> list[Camera]:
     """One camera a frame, from the first room through the doors into every other, with a look around in each.
 
     Args:
@@ -128,7 +130,9 @@ def _route(floor: _Floor) -> list[np.ndarray]:
     """Polylines [k, 2] from stop to stop, always to the nearest room not yet visited."""
     left, here, legs = set(range(1, len(floor.stops))), 0, []
     while left:
-        distance, previous = scipy.sparse.csgraph.dijkstra(floor.graph, indices=int(floor.stops[here]), return_predecessors=True)
+        distance, previous = scipy.sparse.csgraph.dijkstra(
+            floor.graph, indices=int(floor.stops[here]), return_predecessors=True
+        )
         there = min(left, key=lambda room: (distance[floor.stops[room]], room))
         path = [int(floor.stops[there])]
         while path[-1] != floor.stops[here]:
