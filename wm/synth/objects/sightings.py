@@ -1,0 +1,105 @@
+"""Which segments of several images show one thing, and the points of the room that they show.
+
+A camera at each end of a room sees two sides of most things. Two segments of one label are one thing if the points of both
+together are no larger than such a thing may be; the pairs that fit best are taken first.
+"""
+
+import dataclasses
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+from scipy import ndimage
+
+from wm.geometry.camera import unproject_depth
+from wm.synth.backends import Segment, Sighting
+from wm.synth.objects.kinds import kind_of, largest_size
+
+_SLACK, _MARGIN = 1.1, 0.08
+"""A thing may measure this many times its kind's largest, and this many metres more."""
+_EDGE = 0.04
+"""Relative jump of depth to a neighbour from which a pixel lies on a silhouette, where its depth may be anybody's."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Thing:
+    """A label and all that the images show of it."""
+
+    label: str
+    sightings: tuple[Sighting, ...]
+
+
+def gather(views: Sequence[Sequence[tuple[Segment, Sighting]]]) -> list[Thing]:
+    """The things of a room from the segments of each of its images, each segment with its sighting; no mask is used twice."""
+    things = [Thing(segment.label, (sighting,)) for segment, sighting in views[0]] if views else []
+    for found in views[1:]:
+        fits = _fits(things, found)
+        taken: dict[int, int] = {}
+        for _, i, j in sorted(fits):
+            if i not in taken.values() and j not in taken:
+                taken[j] = i
+        for j, (segment, sighting) in enumerate(found):
+            if j in taken:
+                i = taken[j]
+                things[i] = Thing(things[i].label, (*things[i].sightings, sighting))
+            else:
+                things.append(Thing(segment.label, (sighting,)))
+    return things
+
+
+def sighting_points(sighting: Sighting, *, limit: int, seed: int) -> Float[np.ndarray, "n 3"]:
+    """World points of a sighting's pixels away from silhouettes, `limit` at most, metres."""
+    firm = sighting.mask & (sighting.depth > 0) & ~silhouettes(sighting.depth)
+    solid = firm & ndimage.binary_erosion(sighting.mask)
+    chosen = np.flatnonzero(solid if solid.sum() >= 30 else sighting.mask & (sighting.depth > 0))
+    if len(chosen) > limit:
+        chosen = np.random.default_rng(np.random.SeedSequence([seed, 0x9017])).choice(chosen, limit, replace=False)
+    return unproject_depth(sighting.camera, sighting.depth).reshape(-1, 3)[chosen]
+
+
+def silhouettes(depth: Float[np.ndarray, "h w"]) -> np.ndarray:
+    """[h, w] bool: pixels at a jump in depth."""
+    low = ndimage.minimum_filter(depth, 3)
+    high = ndimage.maximum_filter(depth, 3)
+    return high - low > _EDGE * np.maximum(low, 1e-3) + 0.02
+
+
+def _fits(things: list[Thing], found: Sequence[tuple[Segment, Sighting]]) -> list[tuple[float, int, int]]:
+    """(size over the largest allowed, thing, segment) of the pairs that may be one."""
+    clouds = [_cloud(thing.sightings) for thing in things]
+    fits = []
+    for j, (segment, sighting) in enumerate(found):
+        cloud = _cloud((sighting,))
+        limit = largest_size(kind_of(segment.label))
+        for i, thing in enumerate(things):
+            if thing.label != segment.label or not len(cloud) or not len(clouds[i]):
+                continue
+            share = _extent_share(np.concatenate([clouds[i], cloud]), limit)
+            if share <= 1.0:
+                fits.append((share, i, j))
+    return fits
+
+
+def _cloud(sightings: Sequence[Sighting]) -> np.ndarray:
+    return np.concatenate([trimmed(sighting_points(s, limit=400, seed=0)) for s in sightings])
+
+
+def trimmed(points: Float[np.ndarray, "n 3"], share: float = 0.02) -> Float[np.ndarray, "m 3"]:
+    """Points without those beyond the outer quantiles of any axis, by more than a hand."""
+    if len(points) < 20:
+        return points
+    low, high = np.quantile(points, [share, 1 - share], axis=0)
+    return points[((points > low - 0.1) & (points < high + 0.1)).all(axis=1)]
+
+
+def _extent_share(points: np.ndarray, limit: Float[np.ndarray, "3"]) -> float:
+    """How large a cloud is against a kind's largest size: the worse of its footprint's diameter and its height."""
+    angle = np.pi * np.arange(12) / 12
+    across = points[:, :2] @ np.stack([np.cos(angle), np.sin(angle)])
+    low, high = np.quantile(across, [0.01, 0.99], axis=0)
+    diameter = float((high - low).max())
+    bottom, top = np.quantile(points[:, 2], [0.01, 0.99]).tolist()
+    return max(
+        diameter / (_SLACK * math.hypot(limit[0], limit[1]) + _MARGIN), (top - bottom) / (_SLACK * float(limit[2]) + _MARGIN)
+    )
