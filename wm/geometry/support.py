@@ -80,6 +80,12 @@ def is_structure(label: str) -> bool:
     return bool(words) and words[-1] in _STRUCTURE
 
 
+def is_plural(label: str) -> bool:
+    """Whether a label names several things that go as one: "curtains", "candles", "flowers"."""
+    last = label.lower().split()[-1:]
+    return bool(last) and _singular(last[0]) != last[0]
+
+
 def covers_windows(label: str) -> bool:
     """Whether a thing belongs before windows."""
     return bool(_COVERS_WINDOWS.intersection(words_of(label)))

@@ -23,7 +23,7 @@ _LEAST = 8
 
 
 def slot_colors(thing: SceneObject, sightings: Sequence[Sighting]) -> tuple[Float[np.ndarray, "s 3"], Bool[np.ndarray, "s"]]:
-    """(the colour of each slot as the images show it, whether they do); a slot that they do not show, or that glows, keeps its own."""
+    """(the colour of each slot as the images show it, whether they do); a slot that is not seen, or that glows, keeps its own."""
     colors, seen = thing.slot_colors.copy(), np.zeros(len(thing.slots), bool)
     pairs = [_slot_samples(thing, k) for k in range(len(thing.slots))]
     for k, points in enumerate(pairs):

@@ -22,7 +22,8 @@ from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement import Placement, place_objects
 from wm.geometry.raycast import RayScene, build_ray_scene, cast
 from wm.geometry.site import Site, room_site
-from wm.geometry.upright import to_world
+from wm.geometry.upright import levelled, to_world
+from wm.geometry.upright_box import box_of
 from wm.geometry.views import bootstrap_cameras
 from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
 from wm.synth.backends import (
@@ -31,6 +32,7 @@ from wm.synth.backends import (
     ImageBackend,
     ImageRequest,
     ImageResult,
+    Reconstruction,
     ReconstructionBackend,
     SceneContext,
     Segment,
@@ -45,7 +47,7 @@ from wm.synth.objects.metric_depth import metric_depth
 from wm.synth.objects.procedural import ProceduralObjects
 from wm.synth.objects.reconstruction import TemplateReconstruction
 from wm.synth.objects.segments import tidy_segments
-from wm.synth.objects.sightings import gather
+from wm.synth.objects.sightings import Thing, gather, in_room, joined
 from wm.synth.procedural.style import style_of
 from wm.synth.prompts import image_prompt
 from wm.types import Camera, SceneObject, View
@@ -150,17 +152,30 @@ def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: M
         seed = _seed(context.seed, room, k)
         drawing = draw(context, room, camera, bare, models, config, reference=drawings[0] if drawings else None, seed=seed)
         drawings += [drawing] if drawing is not None else []
-    things = gather([[(segment, _sighting(drawing, segment)) for segment in drawing.segments] for drawing in drawings])
-    reconstructions = []
-    for k, thing in enumerate(things):
-        made = models.reconstruction.reconstruct(
-            thing.label, thing.sightings, site, room, seed=_seed(context.seed, room, 100 + k)
-        )
-        if made is not None:
-            T_world_cam = np.linalg.inv(np.asarray(thing.sightings[0].camera.T_cam_world, np.float64))
-            reconstructions.append(dataclasses.replace(made, thing=to_world(made.thing, T_world_cam)))
+    found = [[(segment, _sighting(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
+    things = gather([[pair for pair in pairs if in_room(pair[1], site.polygon)] for pairs in found])
+    reconstructions = _reconstructed(context, room, site, things, models.reconstruction)
     in_world = unlit(reconstructions)
     return LiftedRoom(drawings=tuple(drawings), things=tuple(in_world), placement=place_objects(in_world, site))
+
+
+def _reconstructed(
+    context: SceneContext, room: int, site: Site, things: list[Thing], backend: ReconstructionBackend
+) -> list[Reconstruction]:
+    """Each thing in the world; those that turn out to be one are reconstructed again, together."""
+
+    def made(thing: Thing, number: int) -> Reconstruction | None:
+        seed = _seed(context.seed, room, 100 + number)
+        result = backend.reconstruct(thing.label, thing.sightings, site, room, seed=seed)
+        if result is None:
+            return None
+        T_world_cam = np.linalg.inv(np.asarray(thing.sightings[0].camera.T_cam_world, np.float64))
+        return dataclasses.replace(result, thing=to_world(result.thing, T_world_cam))
+
+    first = [made(thing, k) for k, thing in enumerate(things)]
+    groups = joined(things, [box_of(levelled(result.thing)) if result is not None else None for result in first])
+    results = [first[group[0]] if len(group) == 1 else made(thing, group[0]) for thing, group in groups]
+    return [result for result in results if result is not None]
 
 
 def draw(

@@ -1,4 +1,4 @@
-"""The offline reconstruction: a parametric template of the label's kind, fitted to the points that images show and coloured by them.
+"""The offline reconstruction: a template of the label's kind, fitted to the points that images show and coloured by them.
 
 It sees masked pixels, depth and the label, and the room's walls; of the thing itself it knows nothing. It serves any images whose
 depth is known in metres.

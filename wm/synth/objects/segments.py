@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy import ndimage
 
-from wm.geometry.support import is_structure
+from wm.geometry.support import is_plural, is_structure
 from wm.synth.backends import Segment
 
 _SAME = 0.5
@@ -53,7 +53,9 @@ def _merged(segments: list[Segment]) -> list[Segment]:
 
 
 def _split(segment: Segment, depth: np.ndarray, least: float) -> list[Segment]:
-    """The components of a segment, those together that something nearer may part."""
+    """The components of a segment, those together that something nearer may part; a plural (curtains) is one all the same."""
+    if is_plural(segment.label):
+        return [segment]
     labels = np.zeros(segment.mask.shape, np.int32)
     ndimage.label(segment.mask, np.ones((3, 3)), output=labels)
     sizes = np.bincount(labels.ravel())[1:]
@@ -71,7 +73,8 @@ def _split(segment: Segment, depth: np.ndarray, least: float) -> list[Segment]:
 
 def _one_thing(a: np.ndarray, b: np.ndarray, depth: np.ndarray) -> bool:
     """Whether the shortest line between two masks runs behind something nearer than both of its ends."""
-    distance, nearest = ndimage.distance_transform_edt(~a, return_indices=True)
+    nearest = np.zeros((2, *a.shape), np.int32)
+    distance = np.asarray(ndimage.distance_transform_edt(~a, return_indices=True, indices=nearest))
     ys, xs = np.nonzero(b)
     k = int(np.argmin(distance[ys, xs]))
     start, end = np.array([ys[k], xs[k]]), nearest[:, ys[k], xs[k]]

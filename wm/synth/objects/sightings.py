@@ -9,15 +9,21 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
+import shapely
+from jaxtyping import Bool, Float
 from scipy import ndimage
 
 from wm.geometry.camera import unproject_depth
+from wm.geometry.upright_box import UprightBox, box_iou
 from wm.synth.backends import Segment, Sighting
 from wm.synth.objects.kinds import kind_of, largest_size
 
 _SLACK, _MARGIN = 1.1, 0.08
 """A thing may measure this many times its kind's largest, and this many metres more."""
+_SHARED = 0.2
+"""Share of two boxes' volume from which they are the same thing seen twice."""
+_WALL = 0.06
+"""Metres into a wall at which a point of a thing that hangs there may seem to be."""
 _EDGE = 0.04
 """Relative jump of depth to a neighbour from which a pixel lies on a silhouette, where its depth may be anybody's."""
 
@@ -48,20 +54,52 @@ def gather(views: Sequence[Sequence[tuple[Segment, Sighting]]]) -> list[Thing]:
     return things
 
 
+def joined(things: Sequence[Thing], boxes: Sequence[UprightBox | None]) -> list[tuple[Thing, tuple[int, ...]]]:
+    """Things of one kind whose reconstructions share space, as one; each with the numbers of those that it was."""
+    groups: list[list[int]] = []
+    for k, (thing, box) in enumerate(zip(things, boxes)):
+        home = next((group for group in groups if any(_is_one(thing, box, things[j], boxes[j]) for j in group)), None)
+        if home is None:
+            groups.append([k])
+        else:
+            home.append(k)
+    return [(_together([things[k] for k in group]), tuple(group)) for group in groups]
+
+
+def _is_one(a: Thing, box: UprightBox | None, b: Thing, other: UprightBox | None) -> bool:
+    return box is not None and other is not None and kind_of(a.label) == kind_of(b.label) and box_iou(box, other) > _SHARED
+
+
+def _together(things: list[Thing]) -> Thing:
+    """All sightings of several things; of one camera the masks are joined."""
+    views: dict[int, Sighting] = {}
+    for sighting in (sighting for thing in things for sighting in thing.sightings):
+        known = views.get(id(sighting.camera))
+        mask = sighting.mask if known is None else known.mask | sighting.mask
+        views[id(sighting.camera)] = dataclasses.replace(sighting, mask=mask)
+    return Thing(things[0].label, tuple(views.values()))
+
+
 def sighting_points(sighting: Sighting, *, limit: int, seed: int) -> Float[np.ndarray, "n 3"]:
     """World points of a sighting's pixels away from silhouettes, `limit` at most, metres."""
-    firm = sighting.mask & (sighting.depth > 0) & ~silhouettes(sighting.depth)
-    solid = firm & ndimage.binary_erosion(sighting.mask)
+    inner = np.asarray(ndimage.binary_erosion(sighting.mask), bool)
+    solid = inner & (sighting.depth > 0) & ~silhouettes(sighting.depth)
     chosen = np.flatnonzero(solid if solid.sum() >= 30 else sighting.mask & (sighting.depth > 0))
     if len(chosen) > limit:
         chosen = np.random.default_rng(np.random.SeedSequence([seed, 0x9017])).choice(chosen, limit, replace=False)
     return unproject_depth(sighting.camera, sighting.depth).reshape(-1, 3)[chosen]
 
 
-def silhouettes(depth: Float[np.ndarray, "h w"]) -> np.ndarray:
-    """[h, w] bool: pixels at a jump in depth."""
-    low = ndimage.minimum_filter(depth, 3)
-    high = ndimage.maximum_filter(depth, 3)
+def in_room(sighting: Sighting, room: shapely.Polygon) -> bool:
+    """Whether most of what a sighting shows lies in a room, and not beyond one of its doors."""
+    points = sighting_points(sighting, limit=200, seed=0)
+    return len(points) > 0 and bool(shapely.contains_xy(room.buffer(_WALL), points[:, :2]).mean() > 0.5)
+
+
+def silhouettes(depth: Float[np.ndarray, "h w"]) -> Bool[np.ndarray, "h w"]:
+    """Pixels at a jump in depth."""
+    low = np.asarray(ndimage.minimum_filter(depth, 3))
+    high = np.asarray(ndimage.maximum_filter(depth, 3))
     return high - low > _EDGE * np.maximum(low, 1e-3) + 0.02
 
 

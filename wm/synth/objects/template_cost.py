@@ -16,7 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 from scipy import ndimage
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from wm.geometry.camera import project_points
 from wm.geometry.site import Site
@@ -44,7 +44,7 @@ class Surface:
 
     points: np.ndarray  # [m, 3] in the template's frame
     normals: np.ndarray  # [m, 3] unit
-    tree: cKDTree
+    tree: KDTree
     spacing: float  # metres between neighbouring points, about
 
 
@@ -70,7 +70,7 @@ def surface_of(template: Template) -> Surface:
     piece = template.piece
     points, normals = surface_samples(piece.vertices, piece.faces, _SURFACE)
     area = triangle_areas(piece.vertices, piece.faces).sum()
-    return Surface(points=points, normals=normals, tree=cKDTree(points), spacing=math.sqrt(float(area) / _SURFACE))
+    return Surface(points=points, normals=normals, tree=KDTree(points), spacing=math.sqrt(float(area) / _SURFACE))
 
 
 def triangle_areas(vertices: Float[np.ndarray, "v 3"], faces: np.ndarray) -> Float[np.ndarray, "f"]:
