@@ -22,7 +22,7 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture import make_piece
 from wm.types import SceneObject
 
-_POINTS = 300
+_POINTS = 240
 """Points a thing is fitted to."""
 _LEAST = 12
 """Points below which nothing can be said."""

@@ -13,7 +13,7 @@ import shapely
 from jaxtyping import Bool, Float
 from scipy import ndimage
 
-from wm.geometry.camera import unproject_depth
+from wm.geometry.camera import camera_center, ray_basis
 from wm.geometry.upright_box import UprightBox, box_iou
 from wm.synth.backends import Segment, Sighting
 from wm.synth.objects.kinds import kind_of, largest_size
@@ -24,6 +24,8 @@ _SHARED = 0.2
 """Share of two boxes' volume from which they are the same thing seen twice."""
 _WALL = 0.06
 """Metres into a wall at which a point of a thing that hangs there may seem to be."""
+_FIRM = 30
+"""Pixels away from silhouettes that a sighting must have for the others to be left out."""
 _EDGE = 0.04
 """Relative jump of depth to a neighbour from which a pixel lies on a silhouette, where its depth may be anybody's."""
 
@@ -82,12 +84,20 @@ def _together(things: list[Thing]) -> Thing:
 
 def sighting_points(sighting: Sighting, *, limit: int, seed: int) -> Float[np.ndarray, "n 3"]:
     """World points of a sighting's pixels away from silhouettes, `limit` at most, metres."""
-    inner = np.asarray(ndimage.binary_erosion(sighting.mask), bool)
-    solid = inner & (sighting.depth > 0) & ~silhouettes(sighting.depth)
-    chosen = np.flatnonzero(solid if solid.sum() >= 30 else sighting.mask & (sighting.depth > 0))
-    if len(chosen) > limit:
-        chosen = np.random.default_rng(np.random.SeedSequence([seed, 0x9017])).choice(chosen, limit, replace=False)
-    return unproject_depth(sighting.camera, sighting.depth).reshape(-1, 3)[chosen]
+    rows, columns = (np.flatnonzero(sighting.mask.any(axis=axis)) for axis in (1, 0))
+    if not len(rows):
+        return np.zeros((0, 3))
+    y0, x0 = max(int(rows[0]) - 2, 0), max(int(columns[0]) - 2, 0)
+    window = (slice(y0, int(rows[-1]) + 3), slice(x0, int(columns[-1]) + 3))
+    mask, depth = sighting.mask[window], sighting.depth[window]
+    some = mask & (depth > 0)
+    solid = some & np.asarray(ndimage.binary_erosion(mask), bool) & ~silhouettes(depth)
+    y, x = np.nonzero(solid if solid.sum() >= _FIRM else some)
+    if len(y) > limit:
+        chosen = np.random.default_rng(np.random.SeedSequence([seed, 0x9017])).choice(len(y), limit, replace=False)
+        y, x = y[chosen], x[chosen]
+    across, down = ray_basis(sighting.camera)
+    return camera_center(sighting.camera) + depth[y, x, None].astype(np.float64) * (across[x + x0] + down[y + y0])
 
 
 def in_room(sighting: Sighting, room: shapely.Polygon) -> bool:

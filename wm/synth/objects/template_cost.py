@@ -3,7 +3,7 @@
     seen      every point seen lies on the template: distance along the template's normal, and a little along its surface
     unseen    no part of the template stands where an image looks through it: before what the image shows there, outside the mask
     usual     sizes are those that the kind is built in; what no image shows is settled by this alone
-    room      nothing reaches into a wall; what stands with its back near a wall stands at it, squarely
+    room      nothing reaches into a wall or faces one closely; what stands with its back near a wall stands at it, squarely
 
 All are residuals over their standard deviations, as Gauss-Newton wants them; distances saturate at OUTLIER, so that a ragged
 mask's strays count for little.
@@ -14,7 +14,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy import ndimage
 from scipy.spatial import KDTree
 
@@ -34,7 +34,10 @@ _SIGMA_WALL = 0.015
 _AT_WALL = 0.15
 """Metres between a wall and a thing's back within which it is taken to stand at that wall."""
 _SQUARE = math.radians(4.0)
-_SURFACE, _PROBES = 1500, 250
+_PARALLEL = math.cos(math.radians(16.0))
+_FACING, _BARRED = 0.35, 4.0
+"""Metres of floor that a thing wants before its front, and how much it minds a wall there."""
+_SURFACE, _PROBES = 1200, 160
 """Points on a template that seen points are compared with, and points that are looked for in the images."""
 
 
@@ -55,14 +58,19 @@ class Evidence:
     template: Template
     surface: Surface
     points: np.ndarray  # [n, 3] world points seen
-    views: tuple[tuple[Sighting, np.ndarray], ...]  # each sighting with every pixel's distance to its mask, pixels
+    views: tuple[tuple[Sighting, np.ndarray], ...]  # each sighting with the distance to its mask, at half its resolution, pixels
     site: Site
 
 
 def evidence_of(template: Template, points: Float[np.ndarray, "n 3"], sightings: Sequence[Sighting], site: Site) -> Evidence:
     """What a template is fitted to."""
-    views = tuple((sighting, np.asarray(ndimage.distance_transform_edt(~sighting.mask), np.float32)) for sighting in sightings)
+    views = tuple((sighting, _distance_to(sighting.mask)) for sighting in sightings)
     return Evidence(template=template, surface=surface_of(template), points=points, views=views, site=site)
+
+
+def _distance_to(mask: Bool[np.ndarray, "h w"]) -> Float[np.ndarray, "h2 w2"]:
+    """Pixels to the mask, for every second pixel of every second row."""
+    return 2.0 * np.asarray(ndimage.distance_transform_edt(~mask[::2, ::2]), np.float32)
 
 
 def surface_of(template: Template) -> Surface:
@@ -124,13 +132,14 @@ def _seen_through(box: UprightBox, evidence: Evidence) -> np.ndarray:
     worst = np.zeros(len(probes))
     for sighting, outside in evidence.views:
         pixels, z = project_points(sighting.camera, probes)
-        height, width = outside.shape
+        height, width = sighting.depth.shape
         inside = (z > 0.1) & (pixels >= 0).all(axis=1) & (pixels < [width, height]).all(axis=1)
         x, y = np.where(inside[:, None], pixels, 0.0).astype(int).T
         depth = sighting.depth[y, x]
         before = depth - z - 0.02 - 0.02 * depth
-        aside = outside[y, x] * z / float(sighting.camera.focal[0])
-        amount = np.minimum(np.where(outside[y, x] > 0, aside, before), np.maximum(before, 0.0))
+        apart = outside[y // 2, x // 2]
+        aside = apart * z / float(sighting.camera.focal[0])
+        amount = np.minimum(np.where(apart > 0, aside, before), np.maximum(before, 0.0))
         worst = np.maximum(worst, np.where(inside & (depth > 0), np.maximum(amount, 0.0), 0.0))
     return worst
 
@@ -144,23 +153,33 @@ def _unusual(box: UprightBox, template: Template) -> np.ndarray:
 
 
 def _against_room(box: UprightBox, evidence: Evidence) -> np.ndarray:
-    """[6] corners in walls, and the gap and the skew to the wall at the back."""
+    """[7] corners in walls, how close a wall is to the front, and the gap and the skew to the wall at the back."""
     site = evidence.site
     offset = np.einsum("cwi,wi->cw", box.corners[:, None] - site.starts, site.normals)
     along = np.einsum("cwi,wi->cw", box.corners[:, None] - site.starts, site.directions)
     beside = (along > 0) & (along < site.lengths) & (offset > -0.5)
     inside = np.where(beside, np.maximum(-offset, 0.0), 0.0).max(axis=1) / _SIGMA_WALL
     if evidence.template.support != "floor":
-        return np.append(inside, [0.0, 0.0])
-    back = box.center + box.axes[1] * box.depth / 2
-    gaps = ((back - site.starts) * site.normals).sum(axis=1)
-    facing = site.normals @ -box.axes[1]
-    k = int(np.argmin(np.where(facing > 0.96, np.abs(gaps - 0.03), np.inf)))
-    if facing[k] <= 0.96 or abs(gaps[k]) > _AT_WALL:
+        return np.append(inside, [0.0, 0.0, 0.0])
+    _, before = _wall_beyond(box, site, -1.0)
+    inside = np.append(inside, _BARRED * max(1.0 - max(before, 0.0) / _FACING, 0.0))
+    k, gap = _wall_beyond(box, site, 1.0)
+    if abs(gap) > _AT_WALL:
         return np.append(inside, [0.0, 0.0])
     skew = turn_between(box.yaw, math.atan2(float(site.normals[k, 0]), -float(site.normals[k, 1])))
-    fade = 1.0 - (abs(float(gaps[k])) / _AT_WALL) ** 2
-    return np.append(inside, [fade * (float(gaps[k]) - 0.03) / (2 * _SIGMA_WALL), fade * skew / _SQUARE])
+    fade = 1.0 - (abs(gap) / _AT_WALL) ** 2
+    return np.append(inside, [fade * (gap - 0.03) / (2 * _SIGMA_WALL), fade * skew / _SQUARE])
+
+
+def _wall_beyond(box: UprightBox, site: Site, side: float) -> tuple[int, float]:
+    """(the wall that runs along a box's back (side 1) or front (-1), metres to it); infinitely far where there is none."""
+    middle = box.center + side * box.axes[1] * box.depth / 2
+    gaps = ((middle - site.starts) * site.normals).sum(axis=1)
+    along = ((middle - site.starts) * site.directions).sum(axis=1)
+    facing = (site.normals @ (-side * box.axes[1]) > _PARALLEL) & (along > 0) & (along < site.lengths)
+    distance = np.where(facing, np.abs(gaps - 0.03), np.inf)
+    k = int(np.argmin(distance))
+    return k, float(gaps[k]) if facing[k] else math.inf
 
 
 def _size(box: UprightBox) -> np.ndarray:

@@ -21,7 +21,7 @@ from wm.synth.objects.template_cost import Evidence, residuals
 
 _LIFT = 0.002
 _SAME_YAW = math.radians(6.0)
-_TRIED, _TRIES, _STEPS = 4, 6, 20
+_TRIED, _TRIES, _STEPS = 3, 4, 12
 """Guesses that are refined, by how many steps, and by how many the best of them."""
 _NEAR_WALL = 0.7
 """Metres from a wall within which the points of what hangs on it lie."""
