@@ -20,8 +20,8 @@ from wm.synth.objects.kinds import kind_of, largest_size
 
 _SLACK, _MARGIN = 1.1, 0.08
 """A thing may measure this many times its kind's largest, and this many metres more."""
-_SHARED = 0.2
-"""Share of two boxes' volume from which they are the same thing seen twice."""
+_SHARED, _SHARED_IN_ONE = 0.12, 0.4
+"""Share of the smaller of two boxes in the other from which they are one thing: in different images, in the same one."""
 _WALL = 0.06
 """Metres into a wall at which a point of a thing that hangs there may seem to be."""
 _FIRM = 30
@@ -69,7 +69,13 @@ def joined(things: Sequence[Thing], boxes: Sequence[UprightBox | None]) -> list[
 
 
 def _is_one(a: Thing, box: UprightBox | None, b: Thing, other: UprightBox | None) -> bool:
-    return box is not None and other is not None and kind_of(a.label) == kind_of(b.label) and box_iou(box, other) > _SHARED
+    """Solids of one kind do not share space: two that do are one seen twice, the more surely if no image shows both."""
+    if box is None or other is None or kind_of(a.label) != kind_of(b.label):
+        return False
+    iou = box_iou(box, other)
+    shared = iou / (1 + iou) * (box.volume + other.volume) / min(box.volume, other.volume)
+    apart = {id(sighting.camera) for sighting in a.sightings}.isdisjoint(id(sighting.camera) for sighting in b.sightings)
+    return shared > (_SHARED if apart else _SHARED_IN_ONE)
 
 
 def _together(things: list[Thing]) -> Thing:

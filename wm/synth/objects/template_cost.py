@@ -35,7 +35,7 @@ _AT_WALL = 0.15
 """Metres between a wall and a thing's back within which it is taken to stand at that wall."""
 _SQUARE = math.radians(4.0)
 _PARALLEL = math.cos(math.radians(16.0))
-_FACING, _BARRED = 0.35, 4.0
+_FACING, _BARRED = 0.35, 8.0
 """Metres of floor that a thing wants before its front, and how much it minds a wall there."""
 _SURFACE, _PROBES = 1200, 160
 """Points on a template that seen points are compared with, and points that are looked for in the images."""
