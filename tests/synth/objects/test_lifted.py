@@ -44,6 +44,7 @@ def test_nothing_is_copied_from_the_generator():
     assert not truth & {thing.vertices.tobytes() for thing in room.objects}
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes():
     _, room = lifted()
     again = make_backend("objects", CONFIG, bare()).with_models(COARSE, DepthConfig()).furnish(bare(), 1, density=1.0)
