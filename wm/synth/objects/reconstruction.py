@@ -8,6 +8,7 @@ import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
+import shapely
 
 from wm.geometry.site import Site
 from wm.geometry.upright import transformed
@@ -24,6 +25,10 @@ from wm.types import SceneObject
 
 _POINTS = 240
 """Points a thing is fitted to."""
+_OUTSIDE = 0.05
+"""Metres beyond the walls at which a thing's middle may come to lie."""
+_SPLINTER = 0.5
+"""Share of its kind's least height below which a fit has gone astray."""
 _LEAST = 12
 """Points below which nothing can be said."""
 
@@ -37,7 +42,7 @@ class TemplateReconstruction:
     def reconstruct(
         self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
     ) -> Reconstruction | None:
-        """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen."""
+        """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen, or none fits."""
         share = _POINTS // len(sightings)
         points = np.concatenate([trimmed(sighting_points(s, limit=share, seed=seed)) for s in sightings])
         if len(points) < _LEAST:
@@ -45,6 +50,8 @@ class TemplateReconstruction:
         template = template_of(kind_of(label), self.style)
         evidence = evidence_of(template, points, sightings, site)
         box, _ = fit_template(evidence)
+        if not _plausible(box, template, site):
+            return None
         thing = built(label, template, box, self.style, room, seed=seed)
         colors, seen = slot_colors(thing, sightings)
         return Reconstruction(
@@ -53,6 +60,13 @@ class TemplateReconstruction:
             usual=thing.slot_colors,
             residual=float(np.median(seen_distances(box, evidence))),
         )
+
+
+def _plausible(box: UprightBox, template: Template, site: Site) -> bool:
+    """Whether a fit stands in the room and is not a splinter of its kind."""
+    inside = bool(shapely.contains_xy(site.polygon.buffer(_OUTSIDE), box.x, box.y))
+    flat = template.support == "flat"
+    return inside and (flat or box.height > _SPLINTER * float(template.low[2]))
 
 
 def built(label: str, template: Template, box: UprightBox, style: Style, room: int, *, seed: int) -> SceneObject:

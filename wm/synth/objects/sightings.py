@@ -24,6 +24,8 @@ _SHARED, _SHARED_IN_ONE = 0.12, 0.4
 """Share of the smaller of two boxes in the other from which they are one thing: in different images, in the same one."""
 _WALL = 0.06
 """Metres into a wall at which a point of a thing that hangs there may seem to be."""
+_RIM = 3.0
+"""Pixels from the nearest one away from silhouettes within which a mask's pixels take its depth."""
 _FIRM = 30
 """Pixels away from silhouettes that a sighting must have for the others to be left out."""
 _EDGE = 0.04
@@ -89,7 +91,7 @@ def _together(things: list[Thing]) -> Thing:
 
 
 def sighting_points(sighting: Sighting, *, limit: int, seed: int) -> Float[np.ndarray, "n 3"]:
-    """World points of a sighting's pixels away from silhouettes, `limit` at most, metres."""
+    """World points of a sighting's pixels, metres, `limit` at most; beside silhouettes, with the depth farther in."""
     rows, columns = (np.flatnonzero(sighting.mask.any(axis=axis)) for axis in (1, 0))
     if not len(rows):
         return np.zeros((0, 3))
@@ -98,12 +100,22 @@ def sighting_points(sighting: Sighting, *, limit: int, seed: int) -> Float[np.nd
     mask, depth = sighting.mask[window], sighting.depth[window]
     some = mask & (depth > 0)
     solid = some & np.asarray(ndimage.binary_erosion(mask), bool) & ~silhouettes(depth)
-    y, x = np.nonzero(solid if solid.sum() >= _FIRM else some)
+    if solid.sum() >= _FIRM:
+        depth, some = _filled(depth, solid, some)
+    y, x = np.nonzero(some)
     if len(y) > limit:
         chosen = np.random.default_rng(np.random.SeedSequence([seed, 0x9017])).choice(len(y), limit, replace=False)
         y, x = y[chosen], x[chosen]
     across, down = ray_basis(sighting.camera)
     return camera_center(sighting.camera) + depth[y, x, None].astype(np.float64) * (across[x + x0] + down[y + y0])
+
+
+def _filled(depth: np.ndarray, solid: np.ndarray, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(depth with that of the nearest solid pixel on the rim, the solid pixels and their rim): a mask is right farther out
+    than the depth inside it."""
+    nearest = np.zeros((2, *solid.shape), np.int32)
+    away = np.asarray(ndimage.distance_transform_edt(~solid, return_indices=True, indices=nearest))
+    return depth[nearest[0], nearest[1]], some & (away <= _RIM)
 
 
 def in_room(sighting: Sighting, room: shapely.Polygon) -> bool:

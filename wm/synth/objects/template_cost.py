@@ -149,7 +149,7 @@ def _unusual(box: UprightBox, template: Template) -> np.ndarray:
     size, low, high = _size(box), template.low, template.high
     beyond = np.maximum(np.maximum(low - size, size - high), 0.0)
     spread = (high - low) / 2 + 0.05 * high
-    return np.concatenate([beyond / (0.03 + 0.04 * high), 0.5 * (size - (low + high) / 2) / spread])
+    return np.concatenate([beyond / (0.02 + 0.02 * high), 0.5 * (size - (low + high) / 2) / spread])
 
 
 def _against_room(box: UprightBox, evidence: Evidence) -> np.ndarray:

@@ -1,8 +1,9 @@
 """Size and pose of a thing from what images show of it: guesses by its outline, then Gauss-Newton on the template's residuals.
 
 Guesses: the yaws of the walls and of the smallest rectangle around the points seen from above, each in four quarter turns; in
-each, the extent of the points, completed to the kind's usual size away from the cameras. What holds a thing fixes part of its
-pose: what stands touches the floor, what hangs the ceiling, and what is on a wall has its back to it.
+each, the extent of the points, completed to the kind's usual size on either side, for a thing may be hidden behind itself or
+behind another. What holds a thing fixes part of its pose: what stands touches the floor, what hangs the ceiling, and what is on
+a wall has its back to it.
 """
 
 import dataclasses
@@ -13,13 +14,13 @@ import shapely
 from jaxtyping import Float
 from scipy.optimize import least_squares
 
-from wm.geometry.camera import camera_center
 from wm.geometry.site import wall_yaw
 from wm.geometry.upright import turn_between
 from wm.geometry.upright_box import UprightBox
 from wm.synth.objects.template_cost import Evidence, residuals
 
 _LIFT = 0.002
+_ANCHORS = ((False, False), (False, True), (True, False), (True, True))
 _SAME_YAW = math.radians(6.0)
 _TRIED, _TRIES, _STEPS = 3, 4, 12
 """Guesses that are refined, by how many steps, and by how many the best of them."""
@@ -42,7 +43,7 @@ def _cost(box: UprightBox, evidence: Evidence) -> float:
 
 def _guesses(evidence: Evidence) -> list[UprightBox]:
     if evidence.template.support != "wall":
-        return [_completed(yaw, evidence) for yaw in _yaws(evidence)]
+        return [_completed(yaw, evidence, anchor) for yaw in _yaws(evidence) for anchor in _ANCHORS]
     middle = np.median(evidence.points[:, :2], axis=0)
     site = evidence.site
     offset = ((middle - site.starts) * site.normals).sum(axis=1)
@@ -50,7 +51,7 @@ def _guesses(evidence: Evidence) -> list[UprightBox]:
     beyond = np.maximum(np.maximum(-along, along - site.lengths), 0.0)
     far = np.abs(offset) + beyond
     near = [int(k) for k in np.argsort(far, kind="stable") if far[k] < _NEAR_WALL] or [int(np.argmin(far))]
-    return [_completed(wall_yaw(site.normals[k]), evidence) for k in near]
+    return [_completed(wall_yaw(site.normals[k]), evidence, anchor) for k in near for anchor in _ANCHORS]
 
 
 def _yaws(evidence: Evidence) -> list[float]:
@@ -67,16 +68,14 @@ def _yaws(evidence: Evidence) -> list[float]:
     return kept
 
 
-def _completed(yaw: float, evidence: Evidence) -> UprightBox:
-    """The box of the points at a yaw, made as large as the kind is at least, away from the cameras."""
+def _completed(yaw: float, evidence: Evidence, anchor: tuple[bool, bool]) -> UprightBox:
+    """The box of the points at a yaw, made as large as the kind is at least; `anchor` says on which sides it is all seen."""
     template, points = evidence.template, evidence.points
     frame = UprightBox(0.0, 0.0, 0.0, yaw, 1.0, 1.0, 1.0).transform[:3, :3]
     local = points @ frame
     low, high = np.quantile(local, [0.01, 0.99], axis=0)
-    eyes = np.mean([camera_center(sighting.camera) for sighting, _ in evidence.views], axis=0) @ frame
     size = np.clip(high - low, template.low, np.maximum(template.high, high - low))
-    seen_from_above = eyes > (low + high) / 2
-    start = np.where(seen_from_above, high - size, low)
+    start = np.where([*anchor, True], high - size, low)  # from eye level, of most things the top is seen
     middle = frame @ (start + size / 2)
     width, depth, height = size.tolist()
     box = UprightBox(float(middle[0]), float(middle[1]), float(start[2]), yaw, width, depth, height)
