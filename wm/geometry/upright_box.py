@@ -31,29 +31,30 @@ class UprightBox:
         return self.z + self.height
 
     @property
-    def center(self) -> Float[np.ndarray, "2"]:
+    def center(self) -> np.ndarray:
+        """[2] of the footprint."""
         return np.array([self.x, self.y])
 
     @property
-    def half(self) -> Float[np.ndarray, "2"]:
-        """Half the footprint's width and depth."""
+    def half(self) -> np.ndarray:
+        """[2] half the footprint's width and depth."""
         return np.array([self.width, self.depth]) / 2
 
     @property
-    def axes(self) -> Float[np.ndarray, "2 2"]:
-        """Rows: the directions of width and depth."""
+    def axes(self) -> np.ndarray:
+        """[2, 2] rows: the directions of width and depth."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         return np.array([[c, s], [-s, c]])
 
     @property
-    def transform(self) -> Float[np.ndarray, "4 4"]:
-        """T_world_box: from the frame at the middle of its foot."""
+    def transform(self) -> np.ndarray:
+        """[4, 4] T_world_box: from the frame at the middle of its foot."""
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         return np.array([[c, -s, 0.0, self.x], [s, c, 0.0, self.y], [0.0, 0.0, 1.0, self.z], [0.0, 0.0, 0.0, 1.0]])
 
     @property
-    def corners(self) -> Float[np.ndarray, "4 2"]:
-        """Of the footprint, counter-clockwise."""
+    def corners(self) -> np.ndarray:
+        """[4, 2] of the footprint, counter-clockwise."""
         return self.center + (np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * self.half) @ self.axes
 
     @property
