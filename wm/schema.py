@@ -164,7 +164,14 @@ class ImageConfig:
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class ObjectsConfig:
-    name: str = "procedural"
+    name: str = "procedural"  # procedural: straight from the generator | lifted: from images of the room
+    image_width: int = 640  # of the images that rooms are lifted from
+    image_height: int = 480
+    fov: float = 90.0  # vertical
+    min_area: float = 2e-4  # share of the image below which a segment is discarded
+    ragged: float = 1.0  # pixels by which the offline segmentation's borders stray
+    merged: float = 0.1  # share of touching neighbours of one kind that it takes for one thing
+    missed: float = 0.25  # share of small things that it misses
 
 
 @dataclass(kw_only=True, unsafe_hash=True)

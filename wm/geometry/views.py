@@ -65,6 +65,14 @@ def place_cameras(plan: FloorPlan, mesh: Mesh | RayScene, settings: CameraSettin
     return views
 
 
+def bootstrap_cameras(plan: FloorPlan, scene: RayScene, room: int, settings: CameraSettings = _DEFAULTS) -> list[Camera]:
+    """The two cameras from which a room is imagined: at the middles of its short sides, looking across it.
+
+    Raises: ValueError if the room has no free spot for a camera, naming the room and why.
+    """
+    return _bootstrap(room_air(plan, room, scene, settings), settings)
+
+
 def settle(
     air: RoomAir,
     wanted: Iterable[np.ndarray],
@@ -130,11 +138,9 @@ def _into(spot: np.ndarray, inward: np.ndarray, middle: np.ndarray) -> np.ndarra
     return spot + np.append(np.cos(angle) * inward + np.sin(angle) * aside, -np.tan(np.radians(5.0)))
 
 
-def _room_cameras(
-    plan: FloorPlan, air: RoomAir, points: SurfacePoints, settings: CameraSettings
-) -> dict[str, list[Camera]]:
+def _room_cameras(plan: FloorPlan, air: RoomAir, points: SurfacePoints, settings: CameraSettings) -> dict[str, list[Camera]]:
     sides = short_sides(air)
-    bootstrap = settle(air, _at(sides, air.eye_height), _level(air), settings, depth=_BOOTSTRAP * depth_wanted(air))
+    bootstrap = _bootstrap(air, settings)
     doors = [portal for portal in portals(plan) if portal.kind != "window" and air.index in portal.rooms and settings.doorway]
     doorway = [camera for camera in (door_camera(air, portal, settings, step=0.0) for portal in doors) if camera is not None]
     perimeter = _distinct(_options(air, sides[0], settings, "perimeter"), bootstrap, settings)
@@ -156,6 +162,11 @@ def _room_cameras(
         "overhead": aimed[len(perimeter) :],
         "doorway": doorway,
     }
+
+
+def _bootstrap(air: RoomAir, settings: CameraSettings) -> list[Camera]:
+    wanted = _at(short_sides(air), air.eye_height)
+    return settle(air, wanted, _level(air), settings, depth=_BOOTSTRAP * depth_wanted(air))
 
 
 def _options(air: RoomAir, start: np.ndarray, settings: CameraSettings, kind: str) -> list[Aims]:

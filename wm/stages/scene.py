@@ -19,7 +19,7 @@ from wm.geometry import (
     plan_to_json,
 )
 from wm.stages.job import Job
-from wm.synth.backends import SceneContext, make_backend
+from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext, make_backend
 from wm.synth.language.propose import propose_plan
 from wm.types import Mesh, SceneObject, View
 
@@ -95,11 +95,14 @@ def _user_file(file: str) -> pathlib.Path:
 
 def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
     config = job.config
-    key = job.key("furnish", plan_key, config.furnish, config.objects, config.scene.theme)
+    backend: ObjectsBackend = make_backend("objects", config.objects, context)
+    models = ()
+    if isinstance(backend, ImageDrivenBackend):
+        backend, models = backend.with_models(config.image, config.depth), (config.image, config.depth)
+    key = job.key("furnish", plan_key, config.furnish, config.objects, config.scene.theme, *models)
     if not config.furnish.enabled:
         return (), key
     if not job.folder.has("furnish", key):
-        backend = make_backend("objects", config.objects, context)
         objects: list[SceneObject] = []
         with job.bar("furnish", len(context.plan.rooms)) as bar:
             for room in range(len(context.plan.rooms)):

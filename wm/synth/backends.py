@@ -12,7 +12,9 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from wm.types import Mesh, SceneObject, View
+from wm.geometry.site import Site
+from wm.schema import DepthConfig, ImageConfig
+from wm.types import Camera, Mesh, SceneObject, View
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -48,6 +50,36 @@ class ImageRequest:
 class ImageResult:
     rgb: np.ndarray  # [h, w, 3] float32 sRGB in [0, 1]
     drawn_depth: np.ndarray | None = None  # [h, w] what an offline model knows it drew; real models have none
+    drawn_object: np.ndarray | None = None  # [h, w] int32 likewise: index into drawn_labels, OUTSIDE for structure
+    drawn_labels: tuple[str, ...] = ()
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Segment:
+    """One thing in an image."""
+
+    label: str  # what a person would call it
+    mask: np.ndarray  # [h, w] bool
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sighting:
+    """What one image shows of one thing."""
+
+    camera: Camera
+    rgb: np.ndarray  # [h, w, 3] float32 sRGB, the whole image
+    depth: np.ndarray  # [h, w] float32 z-depth of the whole image, metres, 0 where unknown
+    mask: np.ndarray  # [h, w] bool: the pixels of the thing
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Reconstruction:
+    """One thing as a mesh of its own."""
+
+    thing: SceneObject  # in the frame of the first sighting's camera; its slots in the colours that the images show
+    seen: np.ndarray  # [s] bool: slots whose colour an image shows; the others have their usual one
+    usual: np.ndarray  # [s, 3] float32 sRGB: the slots' usual colours
+    residual: float  # metres between the points seen and the mesh, median
 
 
 @runtime_checkable
@@ -90,6 +122,31 @@ class ObjectsBackend(Protocol):
 
 
 @runtime_checkable
+class ImageDrivenBackend(ObjectsBackend, Protocol):
+    """An objects backend that furnishes rooms from images of them."""
+
+    def with_models(self, image: ImageConfig, depth: DepthConfig) -> ObjectsBackend:
+        """The same backend, its images drawn and their depth estimated by these."""
+        ...
+
+
+@runtime_checkable
+class SegmentationBackend(Protocol):
+    def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
+        """The things of an image; of structure (walls, doors, windows) nothing."""
+        ...
+
+
+@runtime_checkable
+class ReconstructionBackend(Protocol):
+    def reconstruct(
+        self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
+    ) -> Reconstruction | None:
+        """One thing from what one or more images show of it; None where that is too little."""
+        ...
+
+
+@runtime_checkable
 class DepthBackend(Protocol):
     def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
         """[h, w] depth up to scale and shift implied by an image, None where no estimate can be given."""
@@ -99,7 +156,7 @@ class DepthBackend(Protocol):
 CHOICES: dict[str, tuple[str, ...]] = {
     "language": ("grammar",),
     "image": ("procedural",),
-    "objects": ("procedural",),
+    "objects": ("procedural", "lifted"),
     "depth": ("procedural",),
 }
 

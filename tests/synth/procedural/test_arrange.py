@@ -7,9 +7,9 @@ import pytest
 import shapely
 from scipy import ndimage
 
+from wm.geometry.site import make_site
 from wm.synth.procedural.arrange import furnish_site, scene_object
 from wm.synth.procedural.programmes import PROGRAMME
-from wm.synth.procedural.site import make_site
 from wm.synth.procedural.style import style_of
 
 TYPES = tuple(PROGRAMME)

@@ -68,7 +68,12 @@ class ProceduralImages:
         sure = np.clip((condition.known - SURE) / (1 - SURE), 0, 1)
         known = np.where(objects | ~shown, 0, sure).astype(np.float32)
         rgb = _keep_tone(rgb, shot.rgb, condition.rgb, known)
-        return ImageResult(rgb=np.clip(rgb, 0, 1).astype(np.float32), drawn_depth=shot.gbuffer.depth.copy())
+        return ImageResult(
+            rgb=np.clip(rgb, 0, 1).astype(np.float32),
+            drawn_depth=shot.gbuffer.depth.copy(),
+            drawn_object=shot.object.copy(),
+            drawn_labels=self.world.labels,
+        )
 
     def _shot(self, view: View) -> Future[Shot]:
         """What the world shows the view, under way or done; the latest few are kept, so that a further attempt costs no other."""

@@ -2,14 +2,11 @@
 
 import dataclasses
 
-import numpy as np
-
-from wm.geometry import interior_polygon, portals
+from wm.geometry.site import room_site
 from wm.schema import ObjectsConfig
 from wm.synth.backends import SceneContext
 from wm.synth.procedural.arrange import furnish_site, scene_object
 from wm.synth.procedural.room_type import room_type
-from wm.synth.procedural.site import Site, make_site
 from wm.synth.procedural.style import style_of
 from wm.types import SceneObject
 
@@ -34,22 +31,9 @@ class ProceduralObjects:
             raise ValueError(f"furnish.density is {density}; it is the share of the optional pieces, between 0 and 1")
         kind = room_type(context.plan.rooms[room].name)
         placed = furnish_site(
-            site_of(context, room), kind, style_of(context.theme), seed=context.seed, room=room, density=density
+            room_site(context.plan, room), kind, style_of(context.theme), seed=context.seed, room=room, density=density
         )
         return [scene_object(p, room) for p in placed]
-
-
-def site_of(context: SceneContext, room: int) -> Site:
-    """The room as furniture meets it, from the scene's plan."""
-    openings = []
-    for portal in portals(context.plan):
-        if room not in portal.rooms:
-            continue
-        side = portal.rooms.index(room)
-        inward = -portal.normal if side == 0 else portal.normal
-        ends = np.asarray(portal.ends) + portal.half_depths[side] * inward
-        openings.append((portal.kind, ends, portal.sill, portal.head))
-    return make_site(interior_polygon(context.plan, room), context.plan.rooms[room].ceiling_height, openings)
 
 
 def make(config: ObjectsConfig, context: SceneContext | None = None) -> ProceduralObjects:

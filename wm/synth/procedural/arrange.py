@@ -8,6 +8,7 @@ import math
 import numpy as np
 import shapely
 
+from wm.geometry.site import Site
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.groups import middle_piece
 from wm.synth.procedural.hangings import curtain_pairs, hang, on_wall, wall_piece
@@ -15,7 +16,6 @@ from wm.synth.procedural.inventory import ABSENT, AT_WALL, CORNERS, FLAVOUR, ONC
 from wm.synth.procedural.job import Job
 from wm.synth.procedural.layout import Layout, Placed
 from wm.synth.procedural.programmes import PROGRAMME
-from wm.synth.procedural.site import Site
 from wm.types import SceneObject
 
 NARROW = 2.1

@@ -5,13 +5,13 @@ Each returns its anchor, or None where it found no place; companions come as far
 
 import math
 
+from wm.geometry.site import rectangle
 from wm.synth.procedural.clutter import place_on
 from wm.synth.procedural.finish import PERIOD
 from wm.synth.procedural.furniture import KINDS
 from wm.synth.procedural.hangings import hang
 from wm.synth.procedural.job import Job, beside, local
 from wm.synth.procedural.layout import Placed
-from wm.synth.procedural.site import rectangle
 
 
 def rug_under(job: Job, x: float, y: float, yaw: float, w: float, d: float) -> Placed | None:

@@ -12,8 +12,8 @@ import numpy as np
 import shapely
 from scipy import ndimage
 
+from wm.geometry.site import Site, rectangle, wall_yaw
 from wm.synth.procedural.furniture import Piece
-from wm.synth.procedural.site import Site, rectangle, wall_yaw
 
 BODY = 0.25
 CELL = 0.1

@@ -6,12 +6,12 @@ from collections.abc import Callable
 import numpy as np
 import shapely
 
+from wm.geometry.site import Site
 from wm.synth.procedural.finish import PERIOD
 from wm.synth.procedural.groups import around_table, dining_group, hearth, rug_under, sitting, sleeping
 from wm.synth.procedural.hangings import wall_piece
 from wm.synth.procedural.job import Job, local
 from wm.synth.procedural.layout import Placed
-from wm.synth.procedural.site import Site
 from wm.synth.procedural.wet_groups import bathing, cooking, island
 
 

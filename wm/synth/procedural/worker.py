@@ -51,6 +51,7 @@ class WorkerWorld:
         for lane in ours:
             self._free.put(lane)
         self._recipe: Recipe | None = recipe
+        self.labels = tuple(thing.label for thing in recipe.context.objects)  # as `World.labels`
         self._first, self._starting = ours[0], threading.Lock()
 
     def shoot(self, camera: Camera) -> Shot:

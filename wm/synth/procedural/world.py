@@ -55,6 +55,11 @@ class World:
         self._rooms: collections.OrderedDict[int, BakedRoom] = collections.OrderedDict()
         self._lock = threading.RLock()
 
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """What the objects are, in the order of `Shot.object`."""
+        return tuple(thing.label for thing in self._objects)
+
     def room(self, index: int) -> BakedRoom:
         """A room's textures and light, baked now if they are not at hand."""
         with self._lock:

@@ -6,6 +6,9 @@ import math
 import numpy as np
 import shapely
 
+from wm.geometry.footprint import interior_polygon, portals
+from wm.geometry.plan_records import FloorPlan
+
 DOOR_DEPTH = 0.9
 """Metres of floor kept clear before a door or a passage."""
 
@@ -72,6 +75,19 @@ def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str
         polygon=polygon, ceiling=ceiling, starts=starts, directions=directions, normals=normals, lengths=lengths,
         gaps=tuple(gaps), keep=tuple(keep), probes=np.array(probes).reshape(-1, 2), centre=(float(pole[0]), float(pole[1])),
     )  # fmt: skip
+
+
+def room_site(plan: FloorPlan, room: int) -> Site:
+    """The site of a plan's room, its openings on the walls' inner faces."""
+    openings = []
+    for portal in portals(plan):
+        if room not in portal.rooms:
+            continue
+        side = portal.rooms.index(room)
+        inward = -portal.normal if side == 0 else portal.normal
+        ends = np.asarray(portal.ends) + portal.half_depths[side] * inward
+        openings.append((portal.kind, ends, portal.sill, portal.head))
+    return make_site(interior_polygon(plan, room), plan.rooms[room].ceiling_height, openings)
 
 
 def nearest_wall(ends: np.ndarray, starts: np.ndarray, directions: np.ndarray, normals: np.ndarray, lengths: np.ndarray) -> int:

@@ -1,0 +1,65 @@
+"""Labels and furniture kinds: which parametric template a label asks for, and how large such a thing usually is."""
+
+import dataclasses
+import functools
+
+import numpy as np
+from jaxtyping import Float
+
+from wm.geometry.support import words_of
+from wm.synth.procedural.finish import Style
+from wm.synth.procedural.furniture import KINDS, Piece, make_piece
+
+_OTHER_WORDS = {
+    "couch": "sofa", "settee": "sofa", "loveseat": "sofa", "carpet": "rug", "painting": "picture", "poster": "picture",
+    "artwork": "picture", "drape": "curtains", "curtain": "curtains", "tv": "television", "refrigerator": "fridge",
+    "bookcase": "bookshelf", "cupboard": "wardrobe", "closet": "wardrobe", "tub": "bathtub", "sink": "washbasin",
+    "oven": "stove", "cooker": "stove", "monitor": "computer monitor", "lamp": "floor lamp", "table": "dining table",
+    "cabinet": "sideboard", "tree": "plant", "mat": "bath mat", "pouffe": "ottoman", "book": "pile of books",
+    "candle": "candles", "flower": "flowers", "bouquet": "flowers", "sconce": "wall sconce", "hood": "range hood",
+    "stand": "media bench", "island": "kitchen island", "counter": "kitchen counter", "sculpture": "statue",
+}  # fmt: skip
+"""What the last word of a label means where no kind is called so."""
+ANYTHING = "chest"
+"""The template of a label that says nothing: a box with a lid."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Template:
+    """A kind of furniture at its middle size, and the sizes that it is usually built in."""
+
+    kind: str
+    support: str  # floor | flat | wall | ceiling | object
+    piece: Piece
+    low: np.ndarray  # [3] metres
+    high: np.ndarray  # [3]
+
+
+def kind_of(label: str) -> str:
+    """The furniture kind that a label names, by whole words: a key of KINDS."""
+    known = {tuple(words_of(kind)): kind for kind in KINDS}
+    words = tuple(words_of(label))
+    for start in range(len(words)):
+        if words[start:] in known:
+            return known[words[start:]]
+    return _OTHER_WORDS.get(words[-1], ANYTHING) if words else ANYTHING
+
+
+def largest_size(kind: str) -> Float[np.ndarray, "3"]:
+    """Width, depth and height, metres, of the largest of a kind."""
+    return np.array(KINDS[kind].high)
+
+
+@functools.lru_cache(maxsize=512)
+def template_of(kind: str, style: Style) -> Template:
+    """A kind's template in a style."""
+    entry = KINDS[kind]
+    low, high = np.array(entry.low), np.array(entry.high)
+    pieces = [make_piece(kind, style, np.random.default_rng(0), size=_size(at)) for at in (low, (low + high) / 2, high)]
+    sizes = np.stack([piece.size for piece in pieces])
+    return Template(kind=kind, support=entry.support, piece=pieces[1], low=sizes.min(axis=0), high=sizes.max(axis=0))
+
+
+def _size(size: np.ndarray) -> tuple[float, float, float]:
+    w, d, h = size.tolist()
+    return w, d, h

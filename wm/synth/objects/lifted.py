@@ -1,0 +1,231 @@
+"""The image-driven objects backend: an image model draws each room furnished, and what it drew is lifted into the scaffold.
+
+    D0      depth of the empty room from its two bootstrap cameras (the paper has one: what stands behind it is lost)
+    I_obj   what the image model makes of D0
+    D       the depth of I_obj by a depth model, made metric where the image still shows the room
+    things  segments of each image, those of both that show one thing together
+    mesh    each thing reconstructed in its first camera's frame
+    room    all of them placed
+
+The offline image model draws the generator's furniture in the exact world; where its furniture would stand in a camera's way,
+the camera gives way.
+Source: WorldMesh, "Object Instantiation" and supplement, "Object Segmentation", "Object Placement".
+"""
+
+import dataclasses
+import functools
+
+import numpy as np
+
+from wm.geometry.camera import camera_center
+from wm.geometry.mesh import assemble_scene
+from wm.geometry.placement import Placement, place_objects
+from wm.geometry.raycast import RayScene, build_ray_scene, cast
+from wm.geometry.site import Site, room_site
+from wm.geometry.upright import levelled, to_world
+from wm.geometry.upright_box import box_of
+from wm.geometry.views import bootstrap_cameras
+from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
+from wm.synth.backends import (
+    Condition,
+    DepthBackend,
+    ImageBackend,
+    ImageRequest,
+    ImageResult,
+    Reconstruction,
+    ReconstructionBackend,
+    SceneContext,
+    Segment,
+    SegmentationBackend,
+    Sighting,
+    make_backend,
+)
+from wm.synth.condition import depth_grey
+from wm.synth.objects.coloring import unlit
+from wm.synth.objects.drawn_segments import DrawnSegmentation
+from wm.synth.objects.metric_depth import metric_depth
+from wm.synth.objects.procedural import ProceduralObjects
+from wm.synth.objects.reconstruction import TemplateReconstruction
+from wm.synth.objects.segments import tidy_segments
+from wm.synth.objects.sightings import Thing, gather, in_room, joined
+from wm.synth.procedural.style import style_of
+from wm.synth.prompts import image_prompt
+from wm.types import Camera, SceneObject, View
+
+_COARSE = 0.04
+"""Metres between texels of the offline world that a room is lifted from: only colours are read off it."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Models:
+    """What a room is lifted with."""
+
+    image: ImageBackend
+    depth: DepthBackend
+    segmentation: SegmentationBackend
+    reconstruction: ReconstructionBackend
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Drawing:
+    """An image of the furnished room and what was made of it."""
+
+    camera: Camera
+    result: ImageResult
+    depth: np.ndarray  # [h, w] metres
+    segments: list[Segment]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LiftedRoom:
+    """A room's furniture, and the steps on the way to it."""
+
+    drawings: tuple[Drawing, ...]
+    things: tuple[SceneObject, ...]  # in the world, as reconstructed
+    placement: Placement
+
+    @property
+    def objects(self) -> list[SceneObject]:
+        return list(self.placement.objects)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LiftedObjects:
+    """The backend."""
+
+    config: ObjectsConfig
+    image: ImageConfig = dataclasses.field(default_factory=ImageConfig)
+    depth: DepthConfig = dataclasses.field(default_factory=DepthConfig)
+    _scenes: dict[float, SceneContext] = dataclasses.field(default_factory=dict)
+
+    def with_models(self, image: ImageConfig, depth: DepthConfig) -> "LiftedObjects":
+        """The same backend, its images drawn and their depth estimated by these."""
+        return LiftedObjects(self.config, image=image, depth=depth)
+
+    def furnish(self, context: SceneContext, room: int, *, density: float = 1.0) -> list[SceneObject]:
+        """The objects of one room, placed in world space.
+
+        Raises:
+          ValueError: the density is not a share, or the room has no free spot for a camera.
+        """
+        return self.lift(context, room, density=density).objects
+
+    def lift(self, context: SceneContext, room: int, *, density: float = 1.0) -> LiftedRoom:
+        """The objects of one room, and how they came about."""
+        imagined = self.imagined(context, density)
+        settings = CameraSettings(width=self.config.image_width, height=self.config.image_height, fov=self.config.fov)
+        scene = build_ray_scene(assemble_scene(imagined.structure, imagined.objects))
+        cameras = bootstrap_cameras(context.plan, scene, room, settings)
+        return lift_room(context, room, cameras, self.models(imagined), self.config)
+
+    def imagined(self, context: SceneContext, density: float) -> SceneContext:
+        """The scene that the offline image model has in mind: the generator's furniture in every room."""
+        if density not in self._scenes:
+            generator = ProceduralObjects(self.config)
+            rooms = range(len(context.plan.rooms))
+            objects = [thing for room in rooms for thing in generator.furnish(context, room, density=density)]
+            self._scenes[density] = dataclasses.replace(context, objects=tuple(objects))
+        return self._scenes[density]
+
+    def models(self, imagined: SceneContext) -> Models:
+        """The selected image and depth models, and the offline segmentation and reconstruction."""
+        return Models(
+            image=_image_model(self.image, imagined),
+            depth=make_backend("depth", self.depth, imagined),
+            segmentation=DrawnSegmentation(self.config),
+            reconstruction=TemplateReconstruction(style_of(imagined.theme)),
+        )
+
+
+@functools.lru_cache(maxsize=1)
+def _image_model(config: ImageConfig, imagined: SceneContext) -> ImageBackend:
+    coarse = dataclasses.replace(config, texel_size=max(config.texel_size, _COARSE), supersampling=1)
+    return make_backend("image", coarse, imagined)
+
+
+def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: ObjectsConfig) -> LiftedRoom:
+    """One room, drawn from these cameras, segmented, reconstructed and placed."""
+    bare = build_ray_scene(context.structure)
+    site = room_site(context.plan, room)
+    drawings = []
+    for k, camera in enumerate(cameras):
+        seed = _seed(context.seed, room, k)
+        drawing = draw(context, room, camera, bare, models, config, reference=drawings[0] if drawings else None, seed=seed)
+        drawings += [drawing] if drawing is not None else []
+    found = [[(segment, _sighting(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
+    things = gather([[pair for pair in pairs if in_room(pair[1], site.polygon)] for pairs in found])
+    reconstructions = _reconstructed(context, room, site, things, models.reconstruction)
+    in_world = unlit(reconstructions)
+    return LiftedRoom(drawings=tuple(drawings), things=tuple(in_world), placement=place_objects(in_world, site))
+
+
+def _reconstructed(
+    context: SceneContext, room: int, site: Site, things: list[Thing], backend: ReconstructionBackend
+) -> list[Reconstruction]:
+    """Each thing in the world; those that turn out to be one are reconstructed again, together."""
+
+    def made(thing: Thing, number: int) -> Reconstruction | None:
+        seed = _seed(context.seed, room, 100 + number)
+        result = backend.reconstruct(thing.label, thing.sightings, site, room, seed=seed)
+        if result is None:
+            return None
+        T_world_cam = np.linalg.inv(np.asarray(thing.sightings[0].camera.T_cam_world, np.float64))
+        return dataclasses.replace(result, thing=to_world(result.thing, T_world_cam))
+
+    first = [made(thing, k) for k, thing in enumerate(things)]
+    groups = joined(things, [box_of(levelled(result.thing)) if result is not None else None for result in first])
+    results = [first[group[0]] if len(group) == 1 else made(thing, group[0]) for thing, group in groups]
+    return [result for result in results if result is not None]
+
+
+def draw(
+    context: SceneContext, room: int, camera: Camera, bare: RayScene, models: Models, config: ObjectsConfig,
+    *, reference: Drawing | None, seed: int,
+) -> Drawing | None:  # fmt: skip
+    """One image of the room with its segments; None where its depth cannot be told."""
+    gbuffer = cast(bare, camera)
+    grey = depth_grey(gbuffer, (0.0, max(float(gbuffer.depth.max()), 1e-3)))
+    condition = Condition(rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth)
+    plan_room = context.plan.rooms[room]
+    request = ImageRequest(
+        condition=condition,
+        reference=reference.result.rgb if reference is not None else None,
+        prompt=image_prompt(context.theme, plan_room.name, sights(camera, room_site(context.plan, room)), has_reference=False),
+        view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{seed % 2}"),
+        seed=seed,
+    )
+    result = models.image.generate(request)
+    estimate = models.depth.estimate(result, seed=seed)
+    depth = metric_depth(estimate, gbuffer.depth, seed=seed) if estimate is not None else None
+    if depth is None:
+        return None
+    segments = tidy_segments(models.segmentation.segment(result, seed=seed), depth, min_area=config.min_area)
+    return Drawing(camera=camera, result=result, depth=depth, segments=segments)
+
+
+def sights(camera: Camera, site: Site) -> list[str]:
+    """What the empty room shows of doors and windows from a camera, in words: so that no doorway is taken for a picture."""
+    found = []
+    for gap in site.gaps:
+        middle = site.starts[gap.wall] + 0.5 * (gap.low + gap.high) * site.directions[gap.wall]
+        right, _, forward = np.asarray(camera.T_cam_world)[:3, :3]
+        away = np.append(middle, 0.5 * (gap.sill + gap.head)) - camera_center(camera)
+        if away @ forward <= 0.2:
+            continue
+        across = float(away @ right / (away @ forward))
+        side = "on the left" if across < -0.35 else "on the right" if across > 0.35 else "straight ahead"
+        found.append(f"a {'doorway' if gap.kind == 'door' else gap.kind} {side}")
+    return found
+
+
+def _sighting(drawing: Drawing, segment: Segment) -> Sighting:
+    return Sighting(camera=drawing.camera, rgb=drawing.result.rgb, depth=drawing.depth, mask=segment.mask)
+
+
+def _seed(*numbers: int) -> int:
+    return int(np.random.SeedSequence([*numbers, 0x11F7]).generate_state(1)[0])
+
+
+def make(config: ObjectsConfig, context: SceneContext | None = None) -> LiftedObjects:
+    """The image-driven backend with the offline models."""
+    return LiftedObjects(config)

@@ -1,0 +1,82 @@
+"""The offline reconstruction: a template of the label's kind, fitted to the points that images show and coloured by them.
+
+It sees masked pixels, depth and the label, and the room's walls; of the thing itself it knows nothing. It serves any images whose
+depth is known in metres.
+"""
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from wm.geometry.site import Site
+from wm.geometry.upright import transformed
+from wm.geometry.upright_box import UprightBox
+from wm.synth.backends import Reconstruction, Sighting
+from wm.synth.objects.coloring import slot_colors
+from wm.synth.objects.kinds import Template, kind_of, template_of
+from wm.synth.objects.sightings import sighting_points, trimmed
+from wm.synth.objects.template_cost import evidence_of, seen_distances
+from wm.synth.objects.template_fit import fit_template
+from wm.synth.procedural.finish import Style
+from wm.synth.procedural.furniture import make_piece
+from wm.types import SceneObject
+
+_POINTS = 240
+"""Points a thing is fitted to."""
+_OUTSIDE = 0.05
+"""Metres beyond the walls at which a thing's middle may come to lie."""
+_SPLINTER = 0.5
+"""Share of its kind's least height below which a fit has gone astray."""
+_LEAST = 12
+"""Points below which nothing can be said."""
+
+
+@dataclasses.dataclass(frozen=True)
+class TemplateReconstruction:
+    """The backend."""
+
+    style: Style  # what the theme's words say of furniture
+
+    def reconstruct(
+        self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
+    ) -> Reconstruction | None:
+        """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen, or none fits."""
+        share = _POINTS // len(sightings)
+        points = np.concatenate([trimmed(sighting_points(s, limit=share, seed=seed)) for s in sightings])
+        if len(points) < _LEAST:
+            return None
+        template = template_of(kind_of(label), self.style)
+        evidence = evidence_of(template, points, sightings, site)
+        box, _ = fit_template(evidence)
+        if not _plausible(box, template, site):
+            return None
+        thing = built(label, template, box, self.style, room, seed=seed)
+        colors, seen = slot_colors(thing, sightings)
+        return Reconstruction(
+            thing=transformed(dataclasses.replace(thing, slot_colors=colors), np.asarray(sightings[0].camera.T_cam_world)),
+            seen=seen,
+            usual=thing.slot_colors,
+            residual=float(np.median(seen_distances(box, evidence))),
+        )
+
+
+def _plausible(box: UprightBox, template: Template, site: Site) -> bool:
+    """Whether a fit stands in the room and is not a splinter of its kind."""
+    inside = bool(shapely.contains_xy(site.polygon.buffer(_OUTSIDE), box.x, box.y))
+    flat = template.support == "flat"
+    return inside and (flat or box.height > _SPLINTER * float(template.low[2]))
+
+
+def built(label: str, template: Template, box: UprightBox, style: Style, room: int, *, seed: int) -> SceneObject:
+    """A piece of the template's kind that fills a box."""
+    size = (box.width, box.depth, box.height)
+    piece = make_piece(template.kind, style, np.random.default_rng(np.random.SeedSequence([seed, 0xB1])), size=size)
+    T = box.transform
+    filled = piece.vertices * (np.array(size) / piece.size)
+    return SceneObject(
+        label=label, room=room, support=template.support, vertices=filled @ T[:3, :3].T + T[:3, 3], faces=piece.faces,
+        face_slot=piece.face_slot, slots=piece.slots, slot_colors=piece.slot_colors, T_world_object=T, size=np.array(size),
+        emission=piece.emission,
+    )  # fmt: skip
