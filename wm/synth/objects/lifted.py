@@ -191,7 +191,7 @@ def draw(
         condition=condition,
         reference=reference.result.rgb if reference is not None else None,
         prompt=image_prompt(context.theme, plan_room.name, sights(camera, room_site(context.plan, room)), has_reference=False),
-        view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{seed % 2}"),
+        view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{0 if reference is None else 1}"),
         seed=seed,
     )
     result = models.image.generate(request)

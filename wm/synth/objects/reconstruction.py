@@ -49,7 +49,7 @@ class TemplateReconstruction:
             return None
         template = template_of(kind_of(label), self.style)
         evidence = evidence_of(template, points, sightings, site)
-        box, _ = fit_template(evidence)
+        box = fit_template(evidence)
         if not _plausible(box, template, site):
             return None
         thing = built(label, template, box, self.style, room, seed=seed)

@@ -28,13 +28,12 @@ _NEAR_WALL = 0.7
 """Metres from a wall within which the points of what hangs on it lie."""
 
 
-def fit_template(evidence: Evidence) -> tuple[UprightBox, float]:
-    """(the box that the template fills best, its cost)."""
+def fit_template(evidence: Evidence) -> UprightBox:
+    """The box that the template fills best."""
     boxes = sorted(_guesses(evidence), key=lambda box: _cost(box, evidence))
     tried = [_refined(box, evidence, _TRIES) for box in boxes[:_TRIED]]
     best = min(tried, key=lambda box: _cost(box, evidence))
-    best = _refined(best, evidence, _STEPS)
-    return best, _cost(best, evidence)
+    return _refined(best, evidence, _STEPS)
 
 
 def _cost(box: UprightBox, evidence: Evidence) -> float:
