@@ -1,5 +1,9 @@
 """Stage times add up over interruptions and memory is a peak."""
 
+import pathlib
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -30,3 +34,13 @@ def test_a_failing_stage_is_still_measured():
     with pytest.raises(ValueError, match="no"), meter.stage("fit"):
         raise ValueError("no")
     assert "fit" in meter.stages
+
+
+@pytest.mark.skipif(not pathlib.Path("/proc/self/task").exists(), reason="counts workers on Linux only")
+def test_the_memory_of_workers_counts():
+    before = resident_gib()
+    code = "block = b'x' * 300_000_000; print('ready', flush=True); input()"
+    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as worker:
+        assert worker.stdout is not None and worker.stdout.readline() == b"ready\n"
+        assert resident_gib() > before + 0.25
+        worker.communicate(b"\n")

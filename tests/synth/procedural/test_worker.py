@@ -1,0 +1,48 @@
+"""A world in another process is the same world, from any thread, and says so when it is gone."""
+
+import dataclasses
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from tests.synth.procedural.boxes import COARSE, furnished
+from wm.geometry.camera import make_camera
+from wm.synth.procedural.worker import Recipe, WorkerWorld
+
+RECIPE = Recipe(furnished(), supersampling=1, settings=COARSE)
+
+
+def camera(x):
+    return make_camera(np.array([x, 0.5, 1.5]), np.array([2.4, 2.0, 0.9]), width=24, height=16, fov_deg=70.0)
+
+
+@pytest.fixture(scope="module")
+def worker():
+    world = WorkerWorld(RECIPE, lanes=2)
+    yield world
+    world.close()
+
+
+def test_its_shots_are_those_of_the_world_here(worker):
+    here, cameras = RECIPE.make(), [camera(x) for x in (0.4, 0.5, 0.6, 0.7)]
+    with ThreadPoolExecutor(4) as threads:
+        for shot, expected in zip(threads.map(worker.shoot, cameras), map(here.shoot, cameras)):
+            np.testing.assert_array_equal(shot.rgb, expected.rgb)
+            np.testing.assert_array_equal(shot.object, expected.object)
+            np.testing.assert_array_equal(shot.gbuffer.depth, expected.gbuffer.depth)
+    assert worker.labels == here.labels
+
+
+def test_what_goes_wrong_there_is_raised_here_and_it_goes_on(worker):
+    with pytest.raises(Exception, match=r"shape|size|broadcast|index"):
+        worker.shoot(dataclasses.replace(camera(0.4), T_cam_world=np.eye(3)))
+    assert worker.shoot(camera(0.4)).rgb.shape == (16, 24, 3)
+
+
+def test_a_worker_that_is_gone_is_named():
+    world = WorkerWorld(RECIPE, lanes=1)
+    world._process.kill()
+    with pytest.raises(RuntimeError, match=r"offline world ended \(exit code -9\)"):
+        world.shoot(camera(0.4))
+    world.close()
