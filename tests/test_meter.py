@@ -29,6 +29,13 @@ def test_peak_sees_memory_that_was_given_back():
     assert meter.peak_gib >= before + 0.3
 
 
+def test_credit_counts_like_a_part_of_the_stage():
+    meter = StageMeter({"paint": {"seconds": 2.0, "peak_gib": 1.0}})
+    meter.credit("paint", {"seconds": 3.0, "peak_gib": 0.5})
+    meter.credit("fit", {"seconds": 4.0, "peak_gib": 2.0})
+    assert meter.stages == {"paint": {"seconds": 5.0, "peak_gib": 1.0}, "fit": {"seconds": 4.0, "peak_gib": 2.0}}
+
+
 def test_a_failing_stage_is_still_measured():
     meter = StageMeter()
     with pytest.raises(ValueError, match="no"), meter.stage("fit"):

@@ -95,6 +95,25 @@ def test_damage_is_said_and_mended(whole, tmp_path, capsys):
     assert _bytes(tmp_path) == _bytes(whole)
 
 
+def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(whole, tmp_path, monkeypatch, capsys):
+    save, made = RunFolder.save, []
+
+    def listening(self, *arguments):
+        made.append(arguments[0].partition("/")[0])
+        return save(self, *arguments)
+
+    monkeypatch.setattr(RunFolder, "save", listening)
+    config = load_config([*SMALL, "variant=no_depth_loss"])
+    run(config, tmp_path / "borrowed", neighbours=[whole])
+    assert "paint: taken from" in capsys.readouterr().out
+    assert not {"plan", "furnish", "paint", "heldout"} & set(made) and "reconstruct" in made
+    theirs, ours = (json.loads((folder / "timings.json").read_text()) for folder in (whole, tmp_path / "borrowed"))
+    assert ours["paint"]["seconds"] >= theirs["paint"]["seconds"]
+    run(config, tmp_path / "alone")
+    assert _bytes(tmp_path / "borrowed") == _bytes(tmp_path / "alone")
+    assert (tmp_path / "borrowed/layout.json").is_file()
+
+
 def test_another_configuration_does_not_share_the_folder(whole):
     before = _bytes(whole)
     with pytest.raises(ArtifactError, match=r"config\.fit\.steps=4 \(this one: 5\)"):

@@ -28,6 +28,8 @@ LOCK = ".lock"
 TEMPORARY = ".part-"
 
 Writer = Callable[[pathlib.Path], Any]
+Lender = Callable[[str, str, pathlib.Path], list[str]]
+"""Brings the files of an entry (its name, its key) into a folder from elsewhere; an empty list where that cannot be done."""
 
 
 class ArtifactError(RuntimeError):
@@ -94,14 +96,21 @@ class RunFolder:
     Use `open_run_folder`, which locks it.
     """
 
-    def __init__(self, path: pathlib.Path, say: Callable[[str], None]):
+    def __init__(self, path: pathlib.Path, say: Callable[[str], None], lend: Lender | None = None):
         self.path = path
         self._say = say
+        self._lend = lend
         self._header: dict[str, Any] = {}
         self._entries: dict[str, dict[str, Any]] = {}
 
     def has(self, name: str, key: str) -> bool:
-        """Whether entry `name` was made from `key` and its files are whole; a damaged one is forgotten, with a line."""
+        """Whether entry `name` made from `key` is here and whole; a damaged one is forgotten, with a line.
+
+        One that is not here is here afterwards if it can be borrowed.
+        """
+        return self._holds(name, key) or self._borrows(name, key)
+
+    def _holds(self, name: str, key: str) -> bool:
         entry = self._entries.get(name)
         if entry is None or entry["key"] != key:
             return False
@@ -112,6 +121,12 @@ class RunFolder:
                 del self._entries[name]
                 return False
         return True
+
+    def _borrows(self, name: str, key: str) -> bool:
+        files = [] if self._lend is None else self._lend(name, key, self.path)
+        if files:
+            self.record(name, key, files)
+        return bool(files)
 
     def save(self, name: str, key: str, files: Mapping[str, Writer | bytes | str]) -> None:
         """Writes the files of an entry, each atomically, and then records it."""
@@ -173,7 +188,12 @@ class RunFolder:
 
 @contextlib.contextmanager
 def open_run_folder(
-    path: pathlib.Path, header: dict[str, Any], *, overwrite: bool = False, say: Callable[[str], None] = print
+    path: pathlib.Path,
+    header: dict[str, Any],
+    *,
+    overwrite: bool = False,
+    say: Callable[[str], None] = print,
+    lend: Lender | None = None,
 ) -> Iterator[RunFolder]:
     """The run folder at `path`, made if needed and locked until the block ends (also if the process is killed).
 
@@ -182,6 +202,7 @@ def open_run_folder(
       header: what identifies the run (configuration, seed, versions): JSON-like.
       overwrite: accept a folder that another configuration made; entries whose keys still fit are reused.
       say: called with one line when something is found damaged.
+      lend: asked for entries that the folder does not have (`wm.neighbours`); None: every entry is made here.
 
     Raises:
       ArtifactError: another process uses the folder, or it holds another configuration's run.
@@ -196,7 +217,7 @@ def open_run_folder(
                 raise ArtifactError(
                     f"{path} is in use by another run; wait for it, or choose another folder (output=...)"
                 ) from None
-        folder = RunFolder(path, say)
+        folder = RunFolder(path, say, lend)
         folder.open(header, overwrite=overwrite)
         yield folder
 

@@ -39,6 +39,12 @@ class StageMeter:
             row["seconds"] = round(row["seconds"] + time.perf_counter() - started, 3)
             row["peak_gib"] = round(max(row["peak_gib"], peak[0], resident_gib()), 3)
 
+    def credit(self, name: str, row: dict[str, float]) -> None:
+        """Adds what (a part of) stage `name` has cost elsewhere, where its result was taken from."""
+        own = self.stages.setdefault(name, {"seconds": 0.0, "peak_gib": 0.0})
+        own["seconds"] = round(own["seconds"] + row["seconds"], 3)
+        own["peak_gib"] = max(own["peak_gib"], row["peak_gib"])
+
     @property
     def seconds(self) -> float:
         return round(sum(row["seconds"] for row in self.stages.values()), 3)

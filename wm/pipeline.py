@@ -5,36 +5,43 @@ missing, and ends with the same bytes as an undisturbed one. Each stage is a fun
 """
 
 import dataclasses
+import functools
 import importlib.metadata
 import json
 import pathlib
+from collections.abc import Sequence
 
 import wm
-from wm.artifacts import open_run_folder
+from wm.artifacts import open_run_folder, write_atomically
 from wm.host import prepare_process
 from wm.meter import StageMeter
+from wm.neighbours import Neighbours
 from wm.schema import RunConfig
 from wm.stages.evaluation import METRICS, evaluate
 from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.job import TIMINGS, Job
 from wm.stages.painting import Painted, is_painted, paint
-from wm.stages.reconstruction import reconstruct
+from wm.stages.reconstruction import HISTORY, reconstruct
 from wm.stages.rehearsal import rehearsed
 from wm.stages.reporting import REPORT, report
-from wm.stages.scene import Scene, build_scene
+from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.synth.backends import make_backend
 
 _RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
-_NOT_IDENTITY = ("output", "overwrite", "debug", "report")
+_NOT_IDENTITY = ("output", "overwrite", "debug", "report", "reuse")
 """Parts of the configuration that change no stage's result."""
+_CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
+"""Files that a stage leaves and that depend on the clock."""
 
 
-def run(config: RunConfig, folder: pathlib.Path) -> dict:
+def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib.Path] = ()) -> dict:
     """One run, from the theme to the report.
 
     Args:
       config: all of it, checked (wm.validate).
       folder: the run folder; one that holds part of the same run is continued.
+      neighbours: other run folders, from which finished stages are copied where they would come out the same. Their time and
+        memory count as this run's, so that runs stay comparable whatever was there before them.
 
     Returns:
       What `metrics.json` holds.
@@ -48,8 +55,11 @@ def run(config: RunConfig, folder: pathlib.Path) -> dict:
     # A view count of nothing is found here and not after an hour of work.
     if config.cameras.perimeter + config.cameras.overhead == 0 and not config.cameras.doorway:
         raise ValueError("cameras: no views at all: perimeter and overhead are 0 and doorway is false")
-    with open_run_folder(folder, _header(config), overwrite=config.overwrite) as store:
-        job = Job(config=config, folder=store, meter=StageMeter(_earlier_timings(folder)))
+    header, meter = _header(config), StageMeter(_timings(folder))
+    account = functools.partial(_account, meter, folder)
+    lend = Neighbours(neighbours, header["versions"], say=print, account=account).lend
+    with open_run_folder(folder, header, overwrite=config.overwrite, lend=lend) as store:
+        job = Job(config=config, folder=store, meter=meter)
         scene = build_scene(job)
         with rehearsed(job, scene, needed=not is_painted(job, scene)) as capacity:
             painted, heldout = _painted(job, scene)
@@ -67,14 +77,22 @@ def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
     return paint(job, scene, image, depth), render_heldout(job, scene, image)
 
 
+def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pathlib.Path) -> None:
+    """What a stage that was taken from elsewhere has cost there, as if it had been done here."""
+    if stage in (timings := _timings(elsewhere)):
+        meter.credit(stage, timings[stage])
+    if (elsewhere / (clocked := _CLOCKED.get(stage, ""))).is_file():
+        write_atomically(folder / clocked, (elsewhere / clocked).read_bytes())
+
+
 def _header(config: RunConfig) -> dict:
     versions = {"wm": wm.__version__} | {name: importlib.metadata.version(name) for name in _RECORDED}
     identity = {name: value for name, value in dataclasses.asdict(config).items() if name not in _NOT_IDENTITY}
     return {"config": identity, "seed": config.seed, "versions": versions}
 
 
-def _earlier_timings(folder: pathlib.Path) -> dict:
-    """What an interrupted run has measured; nothing if the file is not there or not whole."""
+def _timings(folder: pathlib.Path) -> dict:
+    """What a finished or interrupted run has measured; nothing if the file is not there or not whole."""
     try:
         rows = json.loads((folder / TIMINGS).read_text())
         return {name: {"seconds": float(row["seconds"]), "peak_gib": float(row["peak_gib"])} for name, row in rows.items()}

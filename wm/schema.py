@@ -205,5 +205,6 @@ class RunConfig:
     preset: str = "standard"
     seed: int = 0
     output: str | None = None  # run folder; None lets Hydra's outputs/<scene>/<variant>/<seed> stand
+    reuse: bool = True  # take finished stages over from runs of other variants beside this one, where they are the same
     overwrite: bool = False  # a folder made by another configuration is refused unless this is true
     debug: bool = False  # tracebacks instead of one-line errors

@@ -1,0 +1,86 @@
+"""Finished work of the runs beside this one: an entry of the same key need not be made twice.
+
+The runs of a sweep lie side by side (outputs/<scene>/<variant>/<seed>), and most rows of an ablation differ from each other in
+one stage: whatever comes before it has the same key in each, hence the same bytes. Such entries are copied, never linked, so
+that a folder can be changed or deleted without the others.
+"""
+
+import dataclasses
+import json
+import pathlib
+import shutil
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from wm.artifacts import MANIFEST, file_digest, write_atomically
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Neighbour:
+    """Another run's folder, as its manifest describes it."""
+
+    path: pathlib.Path
+    entries: Mapping[str, Any]  # name -> {"key", "files": {relative: digest}}
+
+
+class Neighbours:
+    """What the runs beside this one have finished.
+
+    Args:
+      folders: run folders; one without a readable manifest, or made by other versions of the libraries, lends nothing.
+      versions: of the run that borrows.
+      say: called with one line for each stage and folder from which something is taken.
+      account: called with a stage and a folder at the same time: the work has cost something there.
+    """
+
+    def __init__(
+        self,
+        folders: Iterable[pathlib.Path],
+        versions: Mapping[str, str],
+        *,
+        say: Callable[[str], None],
+        account: Callable[[str, pathlib.Path], None],
+    ):
+        self._neighbours = [one for folder in folders if (one := _read(folder, versions)) is not None]
+        self._say, self._account = say, account
+        self._said: set[tuple[str, pathlib.Path]] = set()
+
+    def lend(self, name: str, key: str, into: pathlib.Path) -> list[str]:
+        """Copies the files of entry `name` made from `key` into a run folder.
+
+        Returns:
+          The files, relative to the folder; none if no neighbour has the entry whole.
+        """
+        for neighbour in self._neighbours:
+            entry = neighbour.entries.get(name)
+            if entry is not None and entry["key"] == key and _copy(neighbour.path, entry["files"], into):
+                self._tell(name.partition("/")[0], neighbour.path)
+                return list(entry["files"])
+        return []
+
+    def _tell(self, stage: str, path: pathlib.Path) -> None:
+        if (stage, path) not in self._said:
+            self._said.add((stage, path))
+            self._say(f"{stage}: taken from {path}, where it is the same")
+            self._account(stage, path)
+
+
+def _read(folder: pathlib.Path, versions: Mapping[str, str]) -> Neighbour | None:
+    try:
+        manifest = json.loads((folder / MANIFEST).read_text())
+        entries = {name: {"key": str(e["key"]), "files": dict(e["files"])} for name, e in manifest["entries"].items()}
+        return Neighbour(path=folder, entries=entries) if manifest["header"]["versions"] == dict(versions) else None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None
+
+
+def _copy(source: pathlib.Path, files: Mapping[str, str], into: pathlib.Path) -> bool:
+    """Whether all files were there and whole; they are then in `into`."""
+    try:
+        if any(file_digest(source / relative) != expected for relative, expected in files.items()):
+            return False
+        for relative in files:
+            write_atomically(into / relative, lambda path, file=source / relative: shutil.copyfile(file, path))
+    except FileNotFoundError:  # the neighbour is at work, or somebody tidied up
+        return False
+    return all(file_digest(into / relative) == expected for relative, expected in files.items())
