@@ -14,7 +14,7 @@ from wm.geometry import PlanError, Violation
 
 FAKE = """
 import sys, types
-def pipeline(config, folder):
+def pipeline(config, folder, neighbours):
     print(config.scene.name, config.variant, folder)
     {action}
 sys.modules["wm.pipeline"] = types.SimpleNamespace(run=pipeline)
@@ -37,8 +37,8 @@ def door(monkeypatch, tmp_path, capsys):
     def call(*arguments: str, action=lambda config, folder: None):
         calls = []
 
-        def pipeline(config, folder):
-            calls.append((config, folder))
+        def pipeline(config, folder, neighbours):
+            calls.append((config, folder, neighbours))
             action(config, folder)
 
         monkeypatch.chdir(tmp_path)
@@ -67,7 +67,7 @@ def raising(error: BaseException):
 def test_the_run_folder_is_scene_variant_seed(door, tmp_path):
     code, said, calls = door("+scene=gothic", "variant=depth_only", "seed=3")
     assert (code, said) == (0, "")
-    config, folder = calls[0]
+    config, folder, _ = calls[0]
     assert folder == tmp_path / "outputs/gothic/depth_only/3"
     assert config.seed == 3 and config.verify.enabled and not config.condition.wall_texture
     assert list(folder.iterdir()) == []  # nothing of Hydra's
@@ -78,6 +78,15 @@ def test_output_names_another_folder_and_no_other_is_made(door, tmp_path):
     _, _, calls = door("+scene=gothic", "output=here/there")
     assert calls[0][1] == tmp_path / "here/there"
     assert not (tmp_path / "outputs").exists()
+
+
+def test_the_neighbours_are_the_other_variants_of_the_same_scene_and_seed(door, tmp_path):
+    for other in ("full/3", "depth_only/3", "full/4"):
+        (tmp_path / "outputs/gothic" / other).mkdir(parents=True)
+    arguments = ("+scene=gothic", "variant=depth_only", "seed=3")
+    assert door(*arguments)[2][0][2] == [tmp_path / "outputs/gothic/full/3"]
+    assert door(*arguments, "reuse=false")[2][0][2] == []
+    assert door(*arguments, f"output={tmp_path / 'outputs/gothic/mine/3'}")[2][0][2] == []
 
 
 def test_hydra_may_say_where(door, tmp_path):
@@ -149,6 +158,20 @@ def test_a_sweep_runs_every_variant_although_one_fails(tmp_path):
     assert f"wm: {tmp_path}/outputs/gothic/full/0: ill" in done.stderr
     assert "Traceback" not in done.stderr
     assert (tmp_path / "outputs/gothic/depth_only/0").is_dir()
+
+
+def test_a_sweep_ends_with_a_table_of_its_runs(tmp_path):
+    action = """
+    import json, pathlib
+    config = {"variant": config.variant, "seed": config.seed, "scene": {"name": config.scene.name}}
+    pathlib.Path(folder, "manifest.json").write_text(json.dumps({"header": {"config": config}}))
+    pathlib.Path(folder, "metrics.json").write_text(json.dumps({"psnr": 20.0 + len(config["variant"])}))
+"""
+    done = command("-m", "+scene=gothic", "variant=full,depth_only", cwd=tmp_path, action=action)
+    assert done.returncode == 0
+    table = [line for line in done.stdout.splitlines() if line.startswith("| ")]
+    assert [line.split("|")[1].strip() for line in table[1:3]] == ["full", "depth_only"]
+    assert "24.00" in table[1] and "**30.00**" in table[2]
 
 
 def test_interrupted_by_a_signal(tmp_path):

@@ -31,6 +31,8 @@ from wm.validate import ConfigError, validate_config
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
 _SAID = "said on stderr"
+_finished: list[Path] = []
+"""Folders of the runs that this process has finished."""
 
 _PACKAGE = Path(__file__).resolve().parent
 CONF = next(folder for folder in (_PACKAGE.parent / "conf", _PACKAGE / "conf") if (folder / "config.yaml").is_file())
@@ -43,7 +45,7 @@ def main() -> None:
     logging.getLogger("jax").setLevel(logging.WARNING)  # Hydra shows what is told, and JAX tells of every accelerator it lacks
     debug = "debug=true" in (argument.lower() for argument in sys.argv)
     try:
-        _composed_by_hydra()
+        _run_all()
     except KeyboardInterrupt:
         _say("interrupted; the same command resumes")
         sys.exit(INTERRUPTED)
@@ -114,12 +116,23 @@ def options(group: str) -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in (CONF / group).glob("*.yaml")))
 
 
+def _run_all() -> None:
+    """What the command line asks for; after a sweep also a table of what it made, as far as it came."""
+    _finished.clear()
+    try:
+        _composed_by_hydra()
+    finally:
+        if len(_finished) > 1:
+            _print_sweep(_finished)
+
+
 def _run_one(composed: Any) -> None:
     config: RunConfig | None = None
     folder = Path(HydraConfig.get().runtime.output_dir)
     try:
         config = freeze(composed)
-        importlib.import_module("wm.pipeline").run(config, folder)
+        importlib.import_module("wm.pipeline").run(config, folder, neighbours=_neighbours(config, folder))
+        _finished.append(folder)
     except Exception as error:
         if HydraConfig.get().mode == RunMode.MULTIRUN and not composed.debug:
             _say(f"{folder}: {explain(error)}")  # the others of the sweep go on; Hydra reports only the first failure
@@ -129,6 +142,19 @@ def _run_one(composed: Any) -> None:
             raise
         _say(explain(error))
         sys.exit(_exit_code(error))
+
+
+def _neighbours(config: RunConfig, folder: Path) -> list[Path]:
+    """The runs of other variants of the scene with the same seed: outputs/<scene>/*/<seed>."""
+    if config.output is not None or not config.reuse:
+        return []
+    return sorted(other for other in folder.parents[1].glob(f"*/{config.seed}") if other != folder)
+
+
+def _print_sweep(folders: Sequence[Path]) -> None:
+    """One table of what a sweep has made. Launchers that start processes of their own leave it to `python -m wm.report.sweep`."""
+    sweep = importlib.import_module("wm.report.sweep")
+    print(f"\n{sweep.sweep_table(sweep.read_runs(folders))}")
 
 
 def _explain_os_error(error: OSError) -> str:
