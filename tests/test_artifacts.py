@@ -55,13 +55,30 @@ def test_a_damaged_manifest_starts_over_with_a_line(tmp_path, text):
 
 
 def test_another_configuration_is_refused_and_named(tmp_path):
-    with open_run_folder(tmp_path, HEADER):
-        pass
+    with open_run_folder(tmp_path, HEADER) as folder:
+        folder.save("plan", "k", {"plan.json": "{}"})
     other = {"seed": 0, "config": {"fit": {"steps": 20}}}
     with pytest.raises(ArtifactError, match=r"config\.fit\.steps=10 \(this one: 20\)"), open_run_folder(tmp_path, other):
         pass
     with open_run_folder(tmp_path, other, overwrite=True) as folder:
-        assert not folder.has("plan", "k")
+        assert not folder.has("plan", "k2")
+
+
+def test_a_folder_where_nothing_was_finished_is_anybodys(tmp_path):
+    with open_run_folder(tmp_path, HEADER):
+        pass
+    with open_run_folder(tmp_path, {"seed": 1}) as folder:
+        folder.save("plan", "k", {"plan.json": "{}"})
+    assert json.loads((tmp_path / "manifest.json").read_text())["header"] == {"seed": 1}
+
+
+def test_of_many_differences_the_preset_is_named_first(tmp_path):
+    few = {f"a{k}": 1 for k in range(9)}
+    with open_run_folder(tmp_path, {"config": few | {"preset": "draft"}}) as folder:
+        folder.save("plan", "k", {"plan.json": "{}"})
+    other = {"config": dict.fromkeys(few, 2) | {"preset": "standard"}}
+    with pytest.raises(ArtifactError, match=r"a run with config\.preset=draft \(this one: standard\)"):
+        open_run_folder(tmp_path, other).__enter__()
 
 
 def test_a_folder_with_strangers_files_is_refused(tmp_path):
@@ -97,8 +114,9 @@ def test_a_failed_write_leaves_the_old_file_and_no_litter(tmp_path):
         path.write_bytes(b"half")
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    with pytest.raises(OSError, match="No space"):
+    with pytest.raises(OSError, match="No space") as caught:
         write_atomically(target, fill_the_disk)
+    assert caught.value.filename == str(target)  # Python names no file here
     assert target.read_bytes() == b"old"
     assert [p.name for p in tmp_path.iterdir()] == ["x.bin"]
 

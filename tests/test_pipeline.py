@@ -6,6 +6,7 @@ import pathlib
 import pytest
 
 from wm.artifacts import ArtifactError, RunFolder
+from wm.geometry import PlanError
 from wm.pipeline import run
 from wm.run import load_config
 
@@ -121,8 +122,8 @@ def test_another_configuration_does_not_share_the_folder(whole):
     assert _bytes(whole) == before
 
 
-def test_no_views_is_an_error_before_any_work(tmp_path):
-    config = load_config([*SMALL, "cameras.perimeter=0", "cameras.overhead=0", "cameras.doorway=false"])
-    with pytest.raises(ValueError, match="no views"):
-        run(config, tmp_path / "never")
+def test_a_plan_that_cannot_be_used_leaves_no_folder_behind(tmp_path):
+    (tmp_path / "plan.json").write_text("{")
+    with pytest.raises(PlanError, match=r"plan\.json"):
+        run(load_config([*SMALL, f"plan.file={tmp_path / 'plan.json'}"]), tmp_path / "never")
     assert not (tmp_path / "never").exists()

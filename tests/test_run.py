@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from wm import run
+from wm.errors import InputError
 from wm.geometry import PlanError, Violation
 
 FAKE = """
@@ -23,11 +24,15 @@ main()
 """
 
 
-def command(*arguments: str, cwd: Path, action: str | None = None) -> subprocess.CompletedProcess:
+def command(
+    *arguments: str, cwd: Path, action: str | None = None, timeout: float | None = None
+) -> subprocess.CompletedProcess:
     """`python -m wm.run`, or the same door before a pipeline that only prints and then does `action`."""
     start = ["-m", "wm.run"] if action is None else ["-c", FAKE.format(action=action)]
     env = os.environ | {"PYTHONPATH": str(Path(run.__file__).parents[1])}
-    return subprocess.run([sys.executable, *start, *arguments], capture_output=True, text=True, cwd=cwd, env=env, check=False)
+    return subprocess.run(
+        [sys.executable, *start, *arguments], capture_output=True, text=True, cwd=cwd, env=env, check=False, timeout=timeout
+    )
 
 
 @pytest.fixture
@@ -45,6 +50,7 @@ def door(monkeypatch, tmp_path, capsys):
         monkeypatch.setenv("HYDRA_FULL_ERROR", "1")
         for place in ("hydra.core.utils", "hydra._internal.hydra"):  # logging's dictConfig would close pytest's own handlers
             monkeypatch.setattr(f"{place}.configure_log", lambda *_: None)
+        monkeypatch.setattr(run, "_leave", sys.exit)  # or pytest would leave too
         monkeypatch.setattr(sys, "argv", ["wm", *arguments])
         monkeypatch.setitem(sys.modules, "wm.pipeline", types.SimpleNamespace(run=pipeline))
         code = 0
@@ -100,6 +106,8 @@ def test_hydra_may_say_where(door, tmp_path):
         (PermissionError(errno.EACCES, "Permission denied", "plan.json"), 1, "plan.json: no permission to write or read here"),
         (OSError(errno.EROFS, "Read-only file system", "plan.json"), 1, "plan.json: no permission"),
         (RuntimeError("the painter\n  fell ill"), 1, "the painter; fell ill"),
+        (InputError("room hall: no free spot for a camera"), 2, "room hall: no free spot for a camera"),
+        (RuntimeError("\n".join(f"line {k}" for k in range(200))), 1, "line 11; and 188 more"),
         (
             PlanError((Violation("hall", "zero_area", "no area"),), "my.json"),
             2,
@@ -174,9 +182,22 @@ def test_a_sweep_ends_with_a_table_of_its_runs(tmp_path):
     assert "24.00" in table[1] and "**30.00**" in table[2]
 
 
-def test_interrupted_by_a_signal(tmp_path):
-    done = command(
-        "+scene=gothic", cwd=tmp_path, action="import os, signal; os.kill(os.getpid(), signal.SIGINT); import time; time.sleep(9)"
-    )
+def test_interrupted_by_a_signal_it_waits_for_no_thread(tmp_path):
+    action = """
+    import os, signal, threading, time
+    threading.Thread(target=time.sleep, args=(600,)).start()
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(600)
+"""
+    done = command("+scene=gothic", cwd=tmp_path, action=action, timeout=300)
     assert done.returncode == 130
     assert done.stderr == "wm: interrupted; the same command resumes\n"
+
+
+@pytest.mark.parametrize(("statement", "loaded"), [("import wm", "[]"), ("import wm.pipeline", "['jax', 'matplotlib']")])
+def test_what_importing_loads(statement, loaded):
+    heavy = {"jax", "hydra", "embreex", "matplotlib", "torch", "diffusers", "anthropic", "openai", "google.genai"}
+    code = f"import sys; {statement}; print(sorted(set(sys.modules) & {heavy!r}))"
+    env = os.environ | {"PYTHONPATH": str(Path(run.__file__).parents[1])}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env, check=True)
+    assert done.stdout.strip() == loaded

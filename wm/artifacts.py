@@ -26,6 +26,8 @@ except ImportError:  # Windows has no flock: there the folder is not locked
 MANIFEST = "manifest.json"
 LOCK = ".lock"
 TEMPORARY = ".part-"
+_TELLING = ("config.scene.name", "config.preset", "config.variant", "seed")
+"""Of what may differ between two configurations, what tells most: a preset brings a dozen others with it."""
 
 Writer = Callable[[pathlib.Path], Any]
 Lender = Callable[[str, str, pathlib.Path], list[str]]
@@ -74,9 +76,11 @@ def write_atomically(path: pathlib.Path, write: Writer | bytes | str) -> None:
             os.fsync(file.fileno())
         os.chmod(name, 0o644)
         os.replace(name, path)
-    except BaseException:
+    except BaseException as error:
         with contextlib.suppress(OSError):
             os.unlink(name)
+        if isinstance(error, OSError) and error.filename is None:
+            error.filename = str(path)  # a full disk is met while writing, where Python names no file
         raise
 
 
@@ -170,8 +174,8 @@ class RunFolder:
             except (ValueError, KeyError, TypeError, AttributeError):
                 self._say(f"{manifest}: damaged; making everything again")
             else:
-                changed = _differences(old, header)
-                if changed and not overwrite:
+                changed = sorted(_differences(old, header), key=lambda line: not line.startswith(_TELLING))
+                if changed and entries and not overwrite:
                     raise ArtifactError(
                         f"{self.path} holds a run with {'; '.join(changed[:4])}{' ...' if len(changed) > 4 else ''}. "
                         "Choose another folder (output=...), or pass overwrite=true to remake what differs"

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 import wm
 from wm.artifacts import open_run_folder, write_atomically
+from wm.geometry import load_plan
 from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.neighbours import Neighbours
@@ -52,9 +53,8 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
       OSError: the folder cannot be written.
     """
     prepare_process()
-    # A view count of nothing is found here and not after an hour of work.
-    if config.cameras.perimeter + config.cameras.overhead == 0 and not config.cameras.doorway:
-        raise ValueError("cameras: no views at all: perimeter and overhead are 0 and doorway is false")
+    if config.plan.file is not None:
+        load_plan(pathlib.Path(config.plan.file))  # a plan that cannot be used leaves no folder behind
     header, meter = _header(config), StageMeter(_timings(folder))
     account = functools.partial(_account, meter, folder)
     lend = Neighbours(neighbours, header["versions"], say=print, account=account).lend
@@ -110,7 +110,7 @@ def _summary(folder: pathlib.Path, job: Job, metrics: dict) -> str:
             f"\n{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
             *rows,
             f"  {'in all':<12}{metrics['seconds']:9.1f} s {metrics['peak_gib']:7.2f} GiB",
-            f"held-out: {held_out}" if held_out else "held-out: no ground truth with this image backend",
+            f"held-out: {held_out}" if held_out else "held-out: nothing to compare with",
             f"results: {where}",
         ]
     )

@@ -26,10 +26,13 @@ from hydra.types import RunMode
 from omegaconf import OmegaConf
 from omegaconf.errors import InterpolationToMissingValueError, MissingMandatoryValue, OmegaConfBaseException
 
+from wm.errors import InputError
 from wm.schema import RunConfig
 from wm.validate import ConfigError, validate_config
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+LINES = 12
+"""Of a message of many lines, such as all violations of a plan, so many are said."""
 _SAID = "said on stderr"
 _finished: list[Path] = []
 """Folders of the runs that this process has finished."""
@@ -48,13 +51,19 @@ def main() -> None:
         _run_all()
     except KeyboardInterrupt:
         _say("interrupted; the same command resumes")
-        sys.exit(INTERRUPTED)
+        _leave(INTERRUPTED)
     except Exception as error:
         if debug:
             raise
         if _SAID not in getattr(error, "__notes__", ()):
             _say(explain(error))
         sys.exit(_exit_code(error))
+
+
+def _leave(code: int) -> None:
+    """Ends the process now. Threads in the middle of a bake or a compilation are not waited for: every artifact is whole."""
+    sys.stdout.flush()
+    os._exit(code)
 
 
 def freeze(composed: Any) -> RunConfig:
@@ -169,8 +178,7 @@ def _explain_os_error(error: OSError) -> str:
 
 
 def _exit_code(error: BaseException) -> int:
-    bad_input = isinstance(error, ConfigError | HydraException | OmegaConfBaseException) or type(error).__name__ == "PlanError"
-    return BAD_INPUT if bad_input else FAILED  # PlanError by name: a failed `--help` need not import geometry
+    return BAD_INPUT if isinstance(error, InputError | HydraException | OmegaConfBaseException) else FAILED
 
 
 def _unknown_keys(node: Any, record: type, prefix: str) -> Iterator[str]:
@@ -208,7 +216,9 @@ def _no_scene() -> str:
 
 
 def _one_line(text: str) -> str:
-    return "; ".join(" ".join(line.split()) for line in text.splitlines() if line.strip())
+    lines = [" ".join(line.split()) for line in text.splitlines() if line.strip()]
+    more = [f"and {len(lines) - LINES} more"] if len(lines) > LINES else []
+    return "; ".join(lines[:LINES] + more)
 
 
 def _say(line: str) -> None:

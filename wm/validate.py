@@ -1,6 +1,6 @@
 """Which values a configuration may hold: every choice and every range of wm.schema, checked at once.
 
-Hydra checks names and types; this checks what they mean, for callers from Python too. Standard library and schema only.
+Hydra checks names and types; this checks what they mean, for callers from Python too. Imports nothing heavy.
 """
 
 import math
@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any
 
+from wm.errors import InputError
 from wm.schema import RunConfig
 
 CHOICES: Mapping[str, tuple[str, ...]] = {
@@ -93,7 +94,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
 }
 
 
-class ConfigError(ValueError):
+class ConfigError(InputError):
     """A configuration that cannot be run; the message names key, value and what would be right."""
 
 

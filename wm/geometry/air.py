@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 
+from wm.errors import InputError
 from wm.geometry.camera import camera_center, camera_rays, scale_camera
 from wm.geometry.footprint import interior_polygon
 from wm.geometry.plan_records import FloorPlan
@@ -69,7 +70,7 @@ def room_air(plan: FloorPlan, index: int, scene: RayScene, settings: CameraSetti
         points = np.column_stack([grid, np.full(len(grid), height)])
         spots[height] = points[free(scene, points, clearance)]
     if not len(spots[eye_height]):
-        raise ValueError(
+        raise InputError(
             f"room {room.id}: no free spot for a camera: none of {len(grid)} points {eye_height:.2f} m above its floor has "
             f"{clearance:.2f} m of free air around it (walls and {_count_objects(scene, index)} objects stand in the way)"
         )

@@ -4,6 +4,8 @@ import dataclasses
 
 import numpy as np
 
+from wm.errors import InputError
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Opening:
@@ -50,7 +52,7 @@ class Violation:
         return f"{where}: {self.rule}: {self.message}"
 
 
-class PlanError(ValueError):
+class PlanError(InputError):
     """A floor plan that cannot be used, with everything that is wrong with it."""
 
     def __init__(self, violations: tuple[Violation, ...], source: str = "plan"):

@@ -50,7 +50,7 @@ def place_cameras(plan: FloorPlan, mesh: Mesh | RayScene, settings: CameraSettin
         mesh: its structure, with or without objects; a RayScene of it saves building another.
         settings: numbers and sizes of the views.
 
-    Raises: ValueError if a room has no free spot for a camera, naming the room and why.
+    Raises: InputError if a room has no free spot for a camera, naming the room and why.
     Source: WorldMesh, "Camera Viewpoint Generation"; where ours differs is said at the top of this file.
     """
     scene = ray_scene(mesh)
@@ -68,7 +68,7 @@ def place_cameras(plan: FloorPlan, mesh: Mesh | RayScene, settings: CameraSettin
 def bootstrap_cameras(plan: FloorPlan, scene: RayScene, room: int, settings: CameraSettings = _DEFAULTS) -> list[Camera]:
     """The two cameras from which a room is imagined: at the middles of its short sides, looking across it.
 
-    Raises: ValueError if the room has no free spot for a camera, naming the room and why.
+    Raises: InputError if the room has no free spot for a camera, naming the room and why.
     """
     return _bootstrap(room_air(plan, room, scene, settings), settings)
 

@@ -18,6 +18,7 @@ import shapely
 from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
+from wm.errors import InputError
 from wm.geometry.camera import make_camera
 from wm.geometry.footprint import interior_polygon, portals
 from wm.geometry.navigation import body_floor, cells_inside, object_corners, walkable_floor
@@ -56,7 +57,7 @@ def walkthrough(
         fps: frames a second.
         speed: walking speed, metres a second.
 
-    Raises: ValueError if a room cannot be walked into, naming it: its doors are blocked or it has no free floor.
+    Raises: InputError if a room cannot be walked into, naming it: its doors are blocked or it has no free floor.
     """
     if not (fps > 0 and speed > 0):
         raise ValueError(f"a walk needs frames and a speed above 0, not fps {fps}, speed {speed}")
@@ -89,7 +90,7 @@ def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
         if not unreached:
             return floor
     names = ", ".join(unreached) or "any room"
-    raise ValueError(f"no walk into {names}: a walker {0.8 * RADIUS:.2f} m wide finds doors blocked or no free floor")
+    raise InputError(f"no walk into {names}: a walker {0.8 * RADIUS:.2f} m wide finds doors blocked or no free floor")
 
 
 def _grid(plan: FloorPlan, area: BaseGeometry, radius: float) -> _Floor | None:

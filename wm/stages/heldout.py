@@ -8,7 +8,7 @@ from wm import codecs
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.scene import Scene
-from wm.synth.backends import ImageBackend
+from wm.synth.backends import ImageBackend, WorldBackend
 from wm.types import View
 
 
@@ -29,14 +29,13 @@ def render_heldout(job: Job, scene: Scene, image: ImageBackend) -> HeldOut:
     """The truths of all held-out views, stored; a real image model has none."""
     config = job.config
     key = job.key("heldout", scene.key, config.scene.theme, config.cameras, config.image)
-    truth = getattr(image, "truth", None)
-    if truth is None:
+    if not isinstance(image, WorldBackend):
         return HeldOut(known=False, key=key, job=job)
     with job.stage("heldout"):
         wanted = [view for view in scene.heldout if not job.folder.has(_name(view), key)]
         job.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
         with job.bar("heldout", len(wanted)) as bar:
-            for view, rgb in zip(wanted, in_order(truth, wanted)):
+            for view, rgb in zip(wanted, in_order(image.truth, wanted)):
                 job.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(rgb))})
                 bar.update()
     return HeldOut(known=True, key=key, job=job)
