@@ -89,6 +89,7 @@ class RasterSettings:
     near: float = 0.05  # metres
     frustum_margin: float = 1.3  # EWA Jacobian clamped at this multiple of tan(fov / 2)
     depth: bool = True  # False leaves depth out of the render (it is 0 then) and of its cost
+    slanted: bool = True  # depth varies over a gaussian's ellipse as its surface does; False: that of its centre, as in 3DGS
     antialias: bool = False  # opacities fall by what the blur adds to the area, so that small gaussians do not grow brighter
     planner: str = "auto"  # auto | host | traced: where tiles are planned; auto is traced inside jit on accelerators
     tile: int = 8

@@ -13,7 +13,7 @@ from tests.splat.scenes import camera, cloud, jit_project, to_float32
 from wm.geometry import project_points
 from wm.schema import RasterSettings
 from wm.splat import project
-from wm.splat._reference import _covariance
+from wm.splat._reference import _image_axes
 from wm.splat.harmonics import harmonics
 
 
@@ -49,7 +49,8 @@ def test_needles_keep_their_digits(seed):
 
 def _root64(gaussians, view):
     R, t = view.T_cam_world[:3, :3], view.T_cam_world[:3, 3]
-    sigma = np.asarray(_covariance(gaussians, R, gaussians.means @ R.T + t, view, RasterSettings())) + 0.3 * np.eye(2)
+    M = np.asarray(_image_axes(gaussians, R, gaussians.means @ R.T + t, view, RasterSettings())[0])
+    sigma = M @ M.transpose(0, 2, 1) + 0.3 * np.eye(2)
     return np.stack([np.linalg.cholesky(np.linalg.inv(sigma))[:, i, j] for i, j in ((0, 0), (1, 0), (1, 1))])
 
 

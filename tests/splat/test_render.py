@@ -146,7 +146,7 @@ def test_gradients_are_the_same_for_any_tile_chunk_and_block():
 @settings(max_examples=10, deadline=None)
 def test_alpha_and_depth_stay_in_their_ranges(seed, opaque):
     gaussians, view = cloud(seed=seed, degree=3, opaque=opaque), camera(seed=seed)
-    image = render(gaussians, view)
+    image = render(gaussians, view, settings=RasterSettings(slanted=False))
     assert (image.alpha >= 0).all() and (image.alpha <= 1).all()
     shown = np.asarray(image.alpha > 0)
     depth = np.asarray(jit_project(gaussians, view).depth)
@@ -155,13 +155,43 @@ def test_alpha_and_depth_stay_in_their_ranges(seed, opaque):
     assert (np.asarray(image.depth)[~shown] == 0).all()
 
 
+def test_the_depth_of_discs_on_a_plane_converges_to_that_of_the_plane_at_least_with_the_square_of_their_size():
+    view = Camera(T_cam_world=np.eye(4), focal=np.full(2, 18.0), principal=np.array([10.5, 6.5]), width=21, height=13)
+    plane = np.array([0.5, -0.3, 2.0])  # z = 2 + 0.5 x - 0.3 y
+    x, y = (np.mgrid[0:13, 0:21] + 0.5 - np.array([6.5, 10.5])[:, None, None])[::-1] / 18.0
+    exact = plane[2] / (1 - plane[0] * x - plane[1] * y)
+
+    def error(size, **options):
+        image = render(_discs(plane, size), view, settings=RasterSettings(blur=1e-4, **options))
+        return np.abs(np.asarray(image.depth) - exact)[np.asarray(image.alpha) > 0.5].mean()
+
+    assert error(0.1) / error(0.05) > 4
+    assert error(0.1) < 0.1 * error(0.1, slanted=False)
+
+
+def _discs(plane, size: float, n: int = 2400) -> Gaussians:
+    """Discs on z = c + a x + b y in front of the origin, as thin as paper."""
+    rng = np.random.default_rng(0)
+    means = rng.uniform(-1.5, 1.5, (n, 3))
+    means[:, 2] = plane[2] + means[:, :2] @ plane[:2]
+    normal = np.array([-plane[0], -plane[1], 1.0]) / np.linalg.norm([*plane[:2], 1.0])
+    quat = np.array([1 + normal[2], -normal[1], normal[0], 0.0])  # turns the z axis to the normal
+    return Gaussians(
+        means=means,
+        quats=np.tile(quat, (n, 1)),
+        log_scales=np.log(np.tile([size, size, 1e-4], (n, 1))),
+        opacity_logits=np.full(n, 0.5),
+        sh=np.zeros((n, 1, 3)),
+    )
+
+
 def test_one_colour_and_one_depth_everywhere_give_that_colour_and_depth():
     gaussians = cloud(degree=3, opaque=9.0)
     sh = np.zeros((24, 16, 3))
     color = np.array([0.1, 0.6, 0.3])
     sh[:, 0] = (color - 0.5) / 0.28209479177387814
     gaussians = gaussians.replace(sh=sh, means=gaussians.means * [1, 1, 0] + [0, 0, 3.0])
-    image = render(gaussians, camera(), background=color)
+    image = render(gaussians, camera(), background=color, settings=RasterSettings(slanted=False))
     np.testing.assert_allclose(image.rgb, np.broadcast_to(color, image.rgb.shape), atol=1e-6)
     shown = np.asarray(image.alpha > 0)
     assert shown.any()

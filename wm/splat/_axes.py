@@ -1,5 +1,5 @@
-"""What the projection and its derivative share: how a gaussian's axes turn, where the camera's slopes are clamped, and by how
-much opacity makes up for the blur."""
+"""What the projection and its derivative share: how a gaussian's axes turn, where the camera's slopes are clamped, by how much
+opacity makes up for the blur, and how depth varies over an ellipse."""
 
 import functools
 
@@ -50,3 +50,29 @@ def compensation(sharp, blurred):
     """sqrt(max(sharp / blurred, COMPENSATION_FLOOR)) of the determinants without and with blur, and where it is not floored."""
     ratio = sharp / blurred
     return jnp.sqrt(jnp.maximum(ratio, COMPENSATION_FLOOR)), ratio > COMPENSATION_FLOOR
+
+
+def has_slope(settings: RasterSettings) -> bool:
+    """Whether depth is rendered, and not as that of the centres."""
+    return settings.depth and settings.slanted
+
+
+def depth_slope(M, N, det, settings: RasterSettings):
+    """Sigma^-1 (M_0 . M_2, M_1 . M_2), metres a pixel; by products of minors (Binet-Cauchy), so that needles keep their digits.
+
+    Args:
+        M: [3][3] rows of n; N: M_0 x M_1; det: of Sigma, blurred.
+    """
+    right = dot(N, cross(M[2], M[1])) + settings.blur * dot(M[0], M[2])
+    down = dot(N, cross(M[0], M[2])) + settings.blur * dot(M[1], M[2])
+    return right / det, down / det
+
+
+def dot(p, q):
+    """Of two vectors [3] of rows."""
+    return sum(x * y for x, y in zip(p, q))
+
+
+def cross(p, q):
+    """Of two vectors [3] of rows."""
+    return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]

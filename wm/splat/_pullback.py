@@ -11,6 +11,12 @@ A log scale moves its column of M along itself. A turn by w in the gaussian's ow
 t = sum_i (dL/d B_i) x B_i, and dL/dq = 2 q (0, t) / |q|^2 as quaternions. The mean acts through mean2d, depth, the scale f / z of
 J and its slopes, as far as those are not clamped. Nothing is divided by a difference, so needles keep their digits.
 
+The slope of depth has s_0 det = N . (M_2 x M_1) + blur M_0 . M_2 and s_1 det = N . (M_0 x M_2) + blur M_1 . M_2, so with
+h = g_slope / det and G = h_0 M_2 x M_1 + h_1 M_0 x M_2 it adds -h . s to dL/d det, and
+
+    dL/d M_0 += M_1 x G + h_1 M_2 x N + h_0 blur M_2,   dL/d M_1 += G x M_0 + h_0 N x M_2 + h_1 blur M_2,
+    dL/d M_2 = h_0 (M_1 x N + blur M_0) + h_1 (N x M_0 + blur M_1).
+
 With `antialias` the opacity is o c, c^2 = N . N / det above its floor. Its cotangent g_o adds -h / det to dL/d det, and
 h / (N . N) to the derivative by N . N alone, h = g_o o c / 2.
 """
@@ -22,7 +28,7 @@ from jaxtyping import Array, Bool
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.splat._apart import apart
-from wm.splat._axes import by_largest, clamped, compensation, rotations
+from wm.splat._axes import by_largest, clamped, compensation, cross, depth_slope, dot, has_slope, rotations
 from wm.splat._pose import to_camera
 from wm.types import Camera
 
@@ -37,7 +43,7 @@ def pull_ellipses(
         camera: float32 arrays.
         settings: blur, frustum_margin and antialias are read.
         visible: where False, all results are 0.
-        cotangent: `Projected` whose mean2d, root, opacity and depth are 0 where not visible.
+        cotangent: `Projected` whose mean2d, root, opacity, depth and slope are 0 where not visible.
     """
     never = camera.focal[0] == -jnp.inf
     R, f = camera.T_cam_world, camera.focal
@@ -58,9 +64,9 @@ def pull_ellipses(
     def by_compensation(B, log_scales, opacity, g_opacity):
         """c, and what it adds to dL/d det and to dL/d (N . N)."""
         M = _scaled(B, log_scales)
-        N = _cross(*M)
-        sharp = _dot(N, N)
-        det = sharp + settings.blur * (_dot(M[0], M[0]) + _dot(M[1], M[1])) + settings.blur**2
+        N = cross(*M)
+        sharp = dot(N, N)
+        det = sharp + settings.blur * (dot(M[0], M[0]) + dot(M[1], M[1])) + settings.blur**2
         scale, free = compensation(sharp, det)
         h = jnp.where(free, 0.5 * g_opacity * opacity * scale, 0.0)
         return scale, -h / det, h / jnp.where(free, sharp, 1.0)
@@ -68,20 +74,38 @@ def pull_ellipses(
     def by_covariance(B, log_scales, g):
         """dL/d det, dL/d xy, dL/d yy."""
         M = _scaled(B, log_scales)
-        N = _cross(*M)
-        xx, xy, yy = _dot(M[0], M[0]), _dot(M[0], M[1]), _dot(M[1], M[1])
-        det = _dot(N, N) + settings.blur * (xx + yy) + settings.blur**2
+        N = cross(*M)
+        xx, xy, yy = dot(M[0], M[0]), dot(M[0], M[1]), dot(M[1], M[1])
+        det = dot(N, N) + settings.blur * (xx + yy) + settings.blur**2
         yy = yy + settings.blur
         root = 1 / jnp.sqrt(det * yy)
         g0, g1, g2 = g[0] * yy * root, -g[1] * xy * root, g[2] / jnp.sqrt(yy)  # g_k l_k
         return -0.5 * (g0 + g1) / det, -g[1] * root, 0.5 * (g0 - g1 - g2) / yy
 
+    def by_slope(B, third, log_scales, g):
+        """What the slope adds to dL/d det, and to dL/d B, [3][3] with the third row of R Q."""
+        M = _scaled([*B, third], log_scales)
+        N = cross(M[0], M[1])
+        det = dot(N, N) + settings.blur * (dot(M[0], M[0]) + dot(M[1], M[1])) + settings.blur**2
+        slope = depth_slope(M, N, det, settings)
+        h = [g[0] / det, g[1] / det]
+        P, Q, away, toward = cross(M[2], M[1]), cross(M[0], M[2]), cross(N, M[0]), cross(M[1], N)
+        G = [h[0] * p + h[1] * q for p, q in zip(P, Q)]
+        by_N = cross(M[1], G), cross(G, M[0])
+        sideways = cross(M[2], N)
+        g_M = [
+            [by_N[0][j] + h[1] * sideways[j] + h[0] * settings.blur * M[2][j] for j in range(3)],
+            [by_N[1][j] - h[0] * sideways[j] + h[1] * settings.blur * M[2][j] for j in range(3)],
+            [h[0] * (toward[j] + settings.blur * M[0][j]) + h[1] * (away[j] + settings.blur * M[1][j]) for j in range(3)],
+        ]
+        return -(h[0] * slope[0] + h[1] * slope[1]), _scaled(g_M, log_scales)
+
     def by_axes(B, log_scales, g_det, g_xy, g_yy, g_sharp=None):
         """dL/d M times the lengths, which is dL/d B, [2][3]."""
         M = _scaled(B, log_scales)
-        N = _cross(*M)
+        N = cross(*M)
         lengths = [jnp.exp(row) for row in log_scales]
-        toward, away = _cross(M[1], N), _cross(N, M[0])
+        toward, away = cross(M[1], N), cross(N, M[0])
         first = [2 * g_det * (toward[j] + settings.blur * M[0][j]) + g_xy * M[1][j] for j in range(3)]
         second = [2 * g_det * (away[j] + settings.blur * M[1][j]) + g_xy * M[0][j] + 2 * g_yy * M[1][j] for j in range(3)]
         if g_sharp is not None:
@@ -90,9 +114,9 @@ def pull_ellipses(
 
     def by_shape(B, g_B):
         """Cotangents of the log scales, and the torque."""
-        turns = [_cross(g_B[i], B[i]) for i in range(2)]
-        stretch = [g_B[0][j] * B[0][j] + g_B[1][j] * B[1][j] for j in range(3)]
-        return stretch, [turns[0][j] + turns[1][j] for j in range(3)]
+        turns = [cross(*rows) for rows in zip(g_B, B)]
+        stretch = [sum(g[j] * b[j] for g, b in zip(g_B, B)) for j in range(3)]
+        return stretch, [sum(turn[j] for turn in turns) for j in range(3)]
 
     def by_quats(quats, torque):
         (w, x, y, z), largest = by_largest(quats)
@@ -105,9 +129,9 @@ def pull_ellipses(
         through = []
         for i, slope in enumerate((a, b)):
             free = clamped(slope, i, camera, settings)[1]
-            through.append(f[i] * g_mean2d[i] - jnp.where(free, f[i] * inverse * _dot(g_B[i], third), 0.0))
+            through.append(f[i] * g_mean2d[i] - jnp.where(free, f[i] * inverse * dot(g_B[i], third), 0.0))
         x, y = (row * inverse for row in through)
-        z = g_depth - a * x - b * y - inverse * (_dot(g_B[0], B[0]) + _dot(g_B[1], B[1]))
+        z = g_depth - a * x - b * y - inverse * (dot(g_B[0], B[0]) + dot(g_B[1], B[1]))
         return [jnp.where(visible, R[0, k] * x + R[1, k] * y + R[2, k] * z, 0.0) for k in range(3)]
 
     B, third = apart(never, axes, means, quats)
@@ -117,8 +141,16 @@ def pull_ellipses(
     if settings.antialias:
         scale, more, g_sharp = apart(never, by_compensation, B, log_scales, opacity, cotangent.opacity)
         g_logits, g_det = g_logits * scale, g_det + more
+    slanted = has_slope(settings)
+    if slanted:
+        more, by_depth = apart(never, by_slope, B, third, log_scales, list(cotangent.slope))
+        g_det = g_det + more
     g_B = apart(never, by_axes, B, log_scales, g_det, g_xy, g_yy, g_sharp)
-    g_scales, torque = apart(never, by_shape, B, g_B)
+    if slanted:
+        g_B = [[x + y for x, y in zip(*rows)] for rows in zip(g_B, by_depth)]
+        g_scales, torque = apart(never, by_shape, [*B, third], [*g_B, by_depth[2]])
+    else:
+        g_scales, torque = apart(never, by_shape, B, g_B)
     g_quats = apart(never, by_quats, quats, torque)
     g_means = apart(never, by_means, means, third, B, g_B, list(cotangent.mean2d), cotangent.depth)
     return g_means, g_quats, g_scales, g_logits
@@ -128,11 +160,3 @@ def _scaled(B, log_scales):
     """M = B S."""
     lengths = [jnp.exp(row) for row in log_scales]
     return [[row[j] * lengths[j] for j in range(3)] for row in B]
-
-
-def _dot(p, q):
-    return sum(x * y for x, y in zip(p, q))
-
-
-def _cross(p, q):
-    return [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]

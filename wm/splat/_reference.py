@@ -34,7 +34,7 @@ class _Layers:
     alpha: Any  # [h, w, n] the same, cut and clamped
     transmittance: Any  # [h, w, n] in front of it
     color: Any  # [n, 3]
-    depth: Any  # [n]
+    depth: Any  # [h, w, n]
 
 
 def render_reference(
@@ -54,9 +54,11 @@ def render_reference(
     w = jnp.where(settings.transmittance_min <= T, T * alpha, 0.0)
     total = w.sum(-1)
     seen = total > 0
-    depth = jnp.where(seen, w @ layers.depth / jnp.where(seen, total, 1.0), 0.0) if settings.depth else jnp.zeros_like(total)
+    depth = jnp.where(seen, (w * layers.depth).sum(-1) / jnp.where(seen, total, 1.0), 0.0)
     behind = jnp.zeros(3) if background is None else jnp.asarray(background, jnp.float64)
-    return Render(rgb=w @ layers.color + (1 - total)[..., None] * behind, depth=depth, alpha=total)
+    return Render(
+        rgb=w @ layers.color + (1 - total)[..., None] * behind, depth=depth if settings.depth else 0 * depth, alpha=total
+    )
 
 
 def distance_to_thresholds(gaussians: Gaussians, camera: Camera, *, settings: RasterSettings = DEFAULTS) -> Distance:
@@ -87,7 +89,8 @@ def _layers(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> _
     front = p[:, 2] > settings.near
     p = jnp.where(front[:, None], p, jnp.array([0.0, 0.0, 1.0]))
     z = p[:, 2]
-    sharp = _covariance(gaussians, R, p, camera, settings)
+    M, m = _image_axes(gaussians, R, p, camera, settings)
+    sharp = M @ M.transpose(0, 2, 1)
     sigma = sharp + settings.blur * jnp.eye(2)
     inverse = jnp.linalg.inv(sigma)
     mean2d = p[:, :2] / z[:, None] * camera.focal + camera.principal
@@ -100,15 +103,19 @@ def _layers(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> _
     j, i = jnp.meshgrid(jnp.arange(camera.height) + 0.5, jnp.arange(camera.width) + 0.5, indexing="ij")
     d = jnp.stack([i, j], -1)[:, :, None] - mean2d  # [h, w, n, 2]
     q = 0.5 * jnp.einsum("hwni,nij,hwnj->hwn", d, inverse, d)
+    depth = jnp.broadcast_to(z, q.shape)
+    if settings.slanted:
+        depth = depth + jnp.einsum("hwni,nij,njk,nk->hwn", d, inverse, M, m)  # E[z | x, y] of the blurred gaussian
     order = jnp.argsort(z, stable=True)
     unclamped = jnp.where(front, opacity * jnp.exp(-q), 0.0)[..., order]
     alpha = jnp.where(unclamped >= settings.alpha_min, jnp.minimum(settings.alpha_max, unclamped), 0.0)
     passed = jnp.cumprod(1 - alpha, axis=-1)
     T = jnp.concatenate([jnp.ones_like(passed[..., :1]), passed[..., :-1]], -1)
-    return _Layers(unclamped=unclamped, alpha=alpha, transmittance=T, color=color[order], depth=z[order])
+    return _Layers(unclamped=unclamped, alpha=alpha, transmittance=T, color=color[order], depth=depth[..., order])
 
 
-def _covariance(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSettings):
+def _image_axes(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSettings):
+    """J R Q S [n, 2, 3], and the third row of R Q S [n, 3]."""
     zero = jnp.all(gaussians.quats == 0, axis=1, keepdims=True)
     q = jnp.where(zero, jnp.array([1.0, 0.0, 0.0, 0.0]), gaussians.quats)
     w, x, y, z = (q / jnp.linalg.norm(q, axis=1, keepdims=True)).T
@@ -125,8 +132,8 @@ def _covariance(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSett
     slope = jnp.clip(p[:, :2] / p[:, 2:], low, high)
     scale = camera.focal / p[:, 2:]
     J = jnp.concatenate([scale[:, :, None] * jnp.eye(2), (-scale * slope)[:, :, None]], -1)
-    M = J @ R @ Q @ jax.vmap(jnp.diag)(jnp.exp(gaussians.log_scales))
-    return M @ M.transpose(0, 2, 1)
+    axes = R @ Q @ jax.vmap(jnp.diag)(jnp.exp(gaussians.log_scales))
+    return J @ axes, axes[:, 2]
 
 
 def _color(gaussians: Gaussians, centre):

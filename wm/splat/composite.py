@@ -2,8 +2,9 @@
 
 Per pixel, over its tile's list: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 (l of project.py over sqrt 2),
 alpha = exp(min(log o - q, log alpha_max)), dropped below alpha_min; w_i = T_i alpha_i, T_{i+1} = T_i - w_i; features
-F = sum w_i f_i (colour, depth). A pixel is finished once T < transmittance_min: the gaussian that took it there still counts,
-later ones do not. Which tile, block or chunk a pixel falls in changes nothing.
+F = sum w_i f_i: colour, and depth z_i + s_i . d, which is linear in the pixel's place (u, v) in its tile and so three features,
+z_i + s_i . (centre of the tile - mean_i) and s_i, put together once a pixel. A pixel is finished once T < transmittance_min: the
+gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls in changes nothing.
 
 Backward, with g = dL/dF and g_T = dL/dT_final: the part of the loss still to come
 S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so it is walked front to back again and
@@ -17,6 +18,7 @@ the overhead of a loop iteration is paid once for block x tile^2 x chunk pairs. 
 are compiled apart from their uses (_apart.py), which would otherwise each repeat them.
 """
 
+import functools
 import math
 from typing import Any
 
@@ -28,6 +30,7 @@ from jaxtyping import Array, Float
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.splat._apart import apart
+from wm.splat._axes import has_slope
 from wm.splat._exp2 import exp2_between
 from wm.splat.project import DEFAULTS, Projected
 from wm.splat.tiles import TilePlan
@@ -35,6 +38,9 @@ from wm.types import Render, record
 
 GEOMETRY = 6
 """Columns of the table before the features: mean x, y, root l0, l1, l2 over sqrt 2, log opacity."""
+
+DEPTH = 3
+"""Of the features, the first that is depth: that of the centre in the table, that at the tile's centre where it is composited."""
 
 CLAMPED = 1e-6
 """Alphas closer than this (relative) to alpha_max are the clamped ones: the exponential of the clamp rounds."""
@@ -73,12 +79,12 @@ def rasterize(
         The image, float32 even where float64 is enabled. With `settings.depth` False its depth is 0 everywhere and costs nothing.
     """
     composite = _composite(_table(projected, settings), plan, -(-width // settings.tile), settings)
-    t = _image(composite.transmittance, plan, width, height, settings.tile)
-    features = [_image(composite.features[:, j], plan, width, height, settings.tile) for j in range(composite.features.shape[1])]
-    rgb = jnp.stack(features[:3], -1)
+    image = functools.partial(_image, plan=plan, width=width, height=height, tile=settings.tile)
+    t = image(composite.transmittance)
+    rgb = jnp.stack([image(composite.features[:, j]) for j in range(3)], -1)
     if background is not None:
         rgb = rgb + t[..., None] * jnp.asarray(background, jnp.float32)
-    depth = safe_div(features[3], 1 - t) if settings.depth else jnp.zeros_like(t)
+    depth = safe_div(image(_depth(composite.features, settings)), 1 - t) if settings.depth else jnp.zeros_like(t)
     return Render(rgb=rgb, depth=depth, alpha=1 - t)
 
 
@@ -86,11 +92,23 @@ def _table(projected: Projected, settings: RasterSettings) -> Float[Array, "rows
     """One row a gaussian, and a last row of zero opacity at which the padding of a plan points."""
     culled = projected.opacity <= 0
     log_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
-    features = [projected.color, projected.depth[None]] if settings.depth else [projected.color]
+    features = [projected.color]
+    if settings.depth:
+        features.append(projected.depth[None])
+    if has_slope(settings):
+        features.append(projected.slope)
     columns = jnp.concatenate(
         [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log_opacity[None], *features]
     )
     return jnp.pad(columns.T, ((0, 1), (0, 0)), constant_values=0.0).at[-1, GEOMETRY - 1].set(-jnp.inf)
+
+
+def _depth(features: Float[Array, "lanes features pixels"], settings: RasterSettings) -> Float[Array, "lanes pixels"]:
+    """The weighted sum of depths at every pixel."""
+    if not has_slope(settings):
+        return features[:, DEPTH]
+    u, v = _offsets(settings.tile)
+    return features[:, DEPTH] + u * features[:, DEPTH + 1] + v * features[:, DEPTH + 2]
 
 
 def _image(lanes: Float[Array, "lanes pixels"], plan: TilePlan, width: int, height: int, tile: int) -> Float[Array, "h w"]:
@@ -100,7 +118,7 @@ def _image(lanes: Float[Array, "lanes pixels"], plan: TilePlan, width: int, heig
 
 
 def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> Composite:
-    features = table.shape[1] - GEOMETRY
+    count_features = table.shape[1] - GEOMETRY
 
     def block(lanes):
         tile, start, count = lanes
@@ -109,9 +127,10 @@ def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> C
         def step(state):
             i, length, t, F = state
             _, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
+            features = _features(g, origin, settings)
             for k in range(settings.chunk):
                 w = jnp.where(t >= settings.transmittance_min, alpha[:, k] * t, 0.0)
-                F = [f + g[:, k, GEOMETRY + j, None] * w for j, f in enumerate(F)]
+                F = [f + features[:, k, j, None] * w for j, f in enumerate(F)]
                 t = t - w
             i = i + settings.chunk
             # a lane goes on while it has entries and an open pixel; where it stops is what the backward pass will visit
@@ -119,7 +138,7 @@ def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> C
             return i, jnp.where(goes_on, i, length), t, F
 
         t = jnp.ones((tile.shape[0], settings.tile**2), jnp.float32)
-        state = (jnp.int32(0), jnp.zeros_like(count), t, [jnp.zeros_like(t)] * features)
+        state = (jnp.int32(0), jnp.zeros_like(count), t, [jnp.zeros_like(t)] * count_features)
         _, length, t, F = jax.lax.while_loop(lambda state: jnp.max(jnp.where(state[1] == state[0], count, 0)) > 0, step, state)
         return Composite(transmittance=t, features=jnp.stack(F, 1), length=jnp.minimum(length + settings.chunk, count))
 
@@ -161,12 +180,13 @@ def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent:
         def step(state):
             i, t, rest, gradient = state
             entry, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
+            features = _features(g, origin, settings)
             ws, ds = [], []
             for k in range(0, settings.chunk, STRIDE):
                 part = slice(k, k + STRIDE)
-                t, rest, w, d = apart(start[0] < 0, advance, t, rest, alpha[:, part], g[:, part, GEOMETRY:], g_F)
+                t, rest, w, d = apart(start[0] < 0, advance, t, rest, alpha[:, part], features[:, part], g_F)
                 ws, ds = ws + w, ds + d
-            rows = _gradient_rows(g, origin, jnp.stack(ds, 1), jnp.stack(ws, 1), g_F, basis)
+            rows = _gradient_rows(g, origin, jnp.stack(ds, 1), jnp.stack(ws, 1), g_F, basis, settings)
             return i + settings.chunk, t, rest, gradient.at[entry].add(rows, mode="promise_in_bounds")
 
         rest = (F_final * g_F).sum(1) + t_final * g_t
@@ -226,7 +246,17 @@ def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
     return entry, g, apart(start[0] < 0, alphas, x, y, g[..., 2], g[..., 3], g[..., 4], log_opacity)
 
 
-def _gradient_rows(g, origin, d_log_alpha, w, g_F, basis):
+def _features(g, origin, settings: RasterSettings):
+    """What is composited, [lanes, chunk, features]: the table's columns, depth as it is at the tile's centre."""
+    features = g[..., GEOMETRY:]
+    if not has_slope(settings):
+        return features
+    color, depth, slope = jnp.split(features, (DEPTH, DEPTH + 1), axis=-1)
+    there = depth - (slope * (g[..., :2] - origin[:, None])).sum(-1, keepdims=True)
+    return jnp.concatenate([color, there, slope], -1)
+
+
+def _gradient_rows(g, origin, d_log_alpha, w, g_F, basis, settings: RasterSettings):
     """Derivatives by every column of the table, [lanes, chunk, columns]."""
     lanes, chunk, pixels = w.shape
     moments = jnp.dot(d_log_alpha.reshape(-1, pixels), basis, precision="highest").reshape(lanes, chunk, -1)
@@ -238,5 +268,10 @@ def _gradient_rows(g, origin, d_log_alpha, w, g_F, basis):
     sxy = muv - x * mv - y * mu + x * y * m0
     l0, l1, l2 = (g[..., j] for j in (2, 3, 4))
     ex, exx, exy = l0 * sx + l1 * sy, l0 * sxx + l1 * sxy, l0 * sxy + l1 * syy  # e = l0 dx + l1 dy summed with 1, dx, dy
-    by_geometry = [2 * l0 * ex, 2 * (l1 * ex + l2 * l2 * sy), -2 * exx, -2 * exy, -2 * l2 * syy, m0]
+    by_mean = [2 * l0 * ex, 2 * (l1 * ex + l2 * l2 * sy)]
+    if has_slope(settings):
+        by_depth, slope = features[..., DEPTH], g[..., GEOMETRY + DEPTH + 1 :]
+        by_mean = [by_mean[i] - slope[..., i] * by_depth for i in range(2)]
+        features = features.at[..., DEPTH + 1 :].add(-by_depth[..., None] * jnp.stack([x, y], -1))
+    by_geometry = [*by_mean, -2 * exx, -2 * exy, -2 * l2 * syy, m0]
     return jnp.concatenate([jnp.stack(by_geometry, -1), features], -1)

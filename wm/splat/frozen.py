@@ -53,7 +53,7 @@ def join_columns(*parts: Projected | None) -> Projected:
 def pad_columns(projected: Projected | None, size: int) -> Projected:
     """Columns up to `size`: those added (all of them for None) have opacity and extent 0, so nothing lists them."""
     if projected is None:
-        rows = {"mean2d": 2, "root": 3, "color": 3, "extent": 2}
+        rows = {"mean2d": 2, "root": 3, "color": 3, "slope": 2, "extent": 2}
         empty = {name: np.zeros((rows[name], 0) if name in rows else 0, np.float32) for name in ("opacity", "depth", *rows)}
         projected = Projected(**empty)
     missing = size - projected.opacity.shape[-1]

@@ -6,6 +6,7 @@ Notation: p = R x + t (camera axes), (a, b) = p_xy / p_z, S = diag(exp(log_scale
     M = J R Q S (2 x 3),  J = [[fx / z, 0, -fx a' / z], [0, fy / z, -fy b' / z]],  a', b' clamped near the frustum
     Sigma = M M^T + blur I = [[xx, xy], [xy, yy]],  det = sum of squared 2 x 2 minors of M + blur trace(M M^T) + blur^2
     q = 1/2 d^T Sigma^-1 d = 1/2 ((l0 dx + l1 dy)^2 + (l2 dy)^2),  l = (sqrt(yy / det), -xy / sqrt(det yy), 1 / sqrt(yy))
+    slope = Sigma^-1 M m,  m = third row of R Q S: E[z | x, y] = z + slope . d of the (blurred) gaussian
     o = sigmoid(opacity_logits), times c = sqrt(max(det M M^T / det, COMPENSATION_FLOOR)) with `antialias`
 
 The determinant as a sum of squares (Cauchy-Binet) and q as a sum of squares (l is the Cholesky factor of the conic) keep their
@@ -24,7 +25,7 @@ from jaxtyping import Array, Bool, Float
 
 from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
-from wm.splat._axes import clamped, compensation, rotations
+from wm.splat._axes import clamped, compensation, cross, depth_slope, dot, has_slope, rotations
 from wm.splat._pose import from_centre, to_camera
 from wm.splat._pullback import pull_ellipses
 from wm.splat.checks import DEGREES, check_types
@@ -47,6 +48,7 @@ class Projected:
     opacity: Any  # [n] o, compensated with `antialias`
     color: Any  # [3, n] sRGB-encoded, seen from this camera
     depth: Any  # [n] z-depth of the centre, metres
+    slope: Any  # [2, n] by how much depth grows a pixel to the right and down, metres; 0 unless `depth` and `slanted`
     extent: Any  # [2, n] half width and half height of the ellipse where alpha falls to `alpha_min`, px; no gradient
 
 
@@ -56,7 +58,7 @@ def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEF
     Args:
         gaussians: n gaussians in world space, NumPy or JAX.
         camera: where they are seen from; its arrays may be NumPy.
-        settings: blur, near, alpha_min, frustum_margin and antialias are read here.
+        settings: blur, near, alpha_min, frustum_margin, antialias, depth and slanted are read here.
 
     Returns:
         The ellipses, in the order of the gaussians.
@@ -66,7 +68,8 @@ def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEF
 
     Source: Zwicker et al., "EWA Splatting" (2002); the clamp, blur and cut follow Kerbl et al. (2023), the clamp made aware
     of the principal point. The bounding ellipse is exact for the alpha cut, not 3 sigma. `antialias` is the 2D filter of
-    Yu et al., "Mip-Splatting" (2024), section 5.2.
+    Yu et al., "Mip-Splatting" (2024), section 5.2. The slope is the conditional mean of depth in the ray space of Zwicker et al.,
+    close to the plane of Zhang et al., "RaDe-GS" (2024), without its normalisation by the ray.
     """
     check_types(gaussians, camera, settings)
     to_float32 = functools.partial(jax.tree.map, lambda x: jnp.asarray(x, jnp.float32))
@@ -145,8 +148,8 @@ def _ellipses(
     slopes = [clamped(slope, axis, camera, settings)[0] for axis, slope in enumerate((a, b))]
     M = _image_axes(quats, log_scales, T, (fx / pz, fy / pz), slopes)
     xx, xy, yy = (sum(p * q for p, q in zip(M[i], M[j])) for i, j in ((0, 0), (0, 1), (1, 1)))
-    minors = (M[0][i] * M[1][j] - M[0][j] * M[1][i] for i, j in ((0, 1), (0, 2), (1, 2)))
-    sharp = sum(m * m for m in minors)
+    minors = cross(M[0], M[1])
+    sharp = dot(minors, minors)
     det = sharp + settings.blur * (xx + yy) + settings.blur**2
     opacity = jax.nn.sigmoid(opacity_logits)
     if settings.antialias:
@@ -159,18 +162,20 @@ def _ellipses(
         opacity=opacity,
         color=_colors(sh, means, T),
         depth=pz,
+        slope=jnp.stack(depth_slope(M, minors, det, settings)) if has_slope(settings) else jnp.zeros_like(mean2d),
         extent=jnp.zeros_like(mean2d),
     )
     return projected, jnp.stack([xx, yy])
 
 
 def _image_axes(quats, log_scales, T, scale, slope):
-    """M = J R Q S: where each axis of a gaussian, one standard deviation long, goes on the image; [2][3] rows of n."""
+    """M = J R Q S: where a gaussian's axes, one standard deviation long, go on the image and in depth; [3][3] rows of n."""
     Q = rotations(quats)
     lengths = [jnp.exp(row) for row in log_scales]
-    # J R row by row first: two rows of three instead of a 3 x 3 product
+    # J R row by row first: rows of three instead of a 3 x 3 product
     JR = [[scale[i] * (T[i, k] - slope[i] * T[2, k]) for k in range(3)] for i in range(2)]
-    return [[sum(JR[i][k] * Q[k][j] for k in range(3)) * lengths[j] for j in range(3)] for i in range(2)]
+    JR.append([T[2, k] for k in range(3)])
+    return [[sum(JR[i][k] * Q[k][j] for k in range(3)) * lengths[j] for j in range(3)] for i in range(3)]
 
 
 def _colors(sh, x_world, T):
@@ -189,4 +194,4 @@ def _is_visible(raw: Projected, covariance, settings: RasterSettings) -> Bool[Ar
     opaque = raw.opacity > settings.alpha_min
     near_enough = (jnp.abs(raw.mean2d) < FARTHEST).all(0) & (raw.depth < FARTHEST) & (covariance < FARTHEST**2).all(0)
     finite = (jnp.abs(raw.root) < FARTHEST).all(0) & (raw.root[0] > 0) & (jnp.abs(raw.color) < FARTHEST).all(0)
-    return in_front & opaque & near_enough & finite
+    return in_front & opaque & near_enough & finite & (jnp.abs(raw.slope) < FARTHEST).all(0)
