@@ -39,6 +39,8 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "verify.high": (0, 1),
     "verify.dilation": (0, 1000),
     "verify.min_recall": (0, 1),
+    "verify.tolerance": (0, 10),
+    "verify.max_disagreement": (0, 1),
     "verify.max_attempts": (1, 1000),
     "raster.blur": (0, 100),
     "raster.alpha_min": (1e-30, 1),

@@ -97,7 +97,7 @@ def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.
 
 def _seen_through(portal: Portal, view: View, gbuffer: GBuffer) -> float:
     """Share of the image that shows what lies behind an opening."""
-    eye, rays = camera_center(view.camera)[:2], camera_rays(view.camera)
+    eye, rays = camera_center(view.camera)[:2], camera_rays(view.camera).reshape(*gbuffer.depth.shape, 3)
     height = camera_center(view.camera)[2]
     toward = rays[..., :2] @ portal.normal
     distance = float((portal.ends[0] - eye) @ portal.normal)
@@ -149,7 +149,7 @@ def _once_more(
     if len(spots) == 0:
         return None
     polygon = room_site(context.plan, context.objects[chosen].room).polygon
-    eye, rays = camera_center(view.camera), camera_rays(view.camera)
+    eye, rays = camera_center(view.camera), camera_rays(view.camera).reshape(*thing.shape, 3)
     for _ in range(TRIES):
         i, j = spots[int(rng.integers(len(spots)))]
         target = eye + float(gbuffer.depth[i, j]) * rays[i, j]
