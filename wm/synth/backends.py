@@ -46,7 +46,6 @@ class ImageRequest:
     prompt: str
     view: View
     seed: int
-    painted: bool = False  # whether anything of the view's room has been painted before; its first view settles how it looks
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -95,8 +95,7 @@ def paint_scene(
     images: dict[int, np.ndarray] = {}  # of the room under way; those of earlier rooms are loaded when needed
     for place, (index, reference) in enumerate(order):
         view = views[index]
-        first = place == 0 or views[order[place - 1][0]].room != view.room
-        if first:
+        if place and views[order[place - 1][0]].room != view.room:
             images.clear()
         gbuffer = cast(scaffold.scene, view.camera)
         painted = load(view)
@@ -108,7 +107,6 @@ def paint_scene(
                 prompt=prompt(view.room),
                 view=view,
                 seed=seed,
-                painted=not first,
             )
             style = None if reference is None else views[reference].name
             if isinstance(image, PrefetchingBackend):

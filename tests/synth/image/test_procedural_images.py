@@ -35,7 +35,8 @@ def request(shot, *, rgb=None, known=0.0, depth=None, seed=3, painted=False, vie
         depth=shot.gbuffer.depth if depth is None else depth,
         **condition,
     )
-    return ImageRequest(condition=condition, reference=None, prompt="", view=view, seed=seed, painted=painted)
+    view = dataclasses.replace(view, kind="perimeter" if painted else "bootstrap")
+    return ImageRequest(condition=condition, reference=None, prompt="", view=view, seed=seed)
 
 
 WORLDS = {}  # baked once for the module
@@ -119,7 +120,7 @@ def open_walls(shot, **more):
     return request(shot, painted=True, object=shot.object != OUTSIDE, **more)
 
 
-def test_a_room_s_first_view_and_one_that_shows_texture_are_finished_as_the_scene(shot):
+def test_a_bootstrap_view_and_one_that_shows_texture_are_finished_as_the_scene(shot):
     exact = model()
     np.testing.assert_array_equal(exact.generate(request(shot, seed=1)).rgb, exact.truth(VIEW))
     shown = exact.generate(open_walls(shot, rgb=shot.rgb, known=1.0, seed=1)).rgb
@@ -163,7 +164,7 @@ def test_without_objects_in_the_condition_the_room_is_furnished_anew(shot):
     bare = [model().generate(request(shot, seed=seed, objects="none", painted=True, view=middle)) for seed in range(6)]
     assert len({result.drawn_depth.tobytes() for result in bare}) > 1
     first = model().generate(request(shot, seed=0, objects="none"))
-    np.testing.assert_array_equal(first.drawn_depth, shot.gbuffer.depth)  # what a room's first view draws is the scene
+    np.testing.assert_array_equal(first.drawn_depth, shot.gbuffer.depth)  # what a bootstrap view draws is the scene
 
 
 def test_without_imaginations_everything_is_the_scene(shot):

@@ -5,8 +5,8 @@ Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it 
     out = W + known * lowpass(X - W) + (1 - known) * drift.
 - Objects that X shows textured are the scene's; a grey box is filled with other furniture; where X shows no objects, the room is
   furnished in some other way.
-- Walls, floor and ceiling are finished as the scene's where X shows any of their texture, and in a room's first view, which
-  settles how it looks; otherwise in some other way that the theme allows.
+- Walls, floor and ceiling are finished as the scene's where X shows any of their texture, and in a room's bootstrap views, which
+  settle how it looks; otherwise in some other way that the theme allows.
 - Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
   while the world's fine detail is restored.
 Imperfections (wm.synth.image.imperfections) and violations of the structure (wm.synth.image.violations) come on top, at the
@@ -23,7 +23,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.ndimage import gaussian_filter
 
-from wm.geometry.camera import camera_center
+from wm.geometry.camera import camera_center, camera_rays
 from wm.host import cores
 from wm.schema import ImageConfig
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
@@ -47,6 +47,8 @@ AGREEMENT = 0.03
 """Relative difference of depth up to which the condition is taken to show what the world has there."""
 INVENTION = 4.0
 """How many times stronger an object that the condition does not show drifts than a wall."""
+PLANES = 0.05
+"""Metres between planes of the structure that count as two surfaces: a pane lies deeper than that in its wall."""
 ELBOW_ROOM = 0.35
 """Metres between a camera and imagined furniture: a model draws a view, not the inside of a wardrobe."""
 
@@ -112,8 +114,9 @@ class ProceduralImages:
         if count == 0:
             return SCENE
         first = np.random.default_rng(_stream(request.seed, 0x1DEA)).permutation(count) + 1
-        surfaces = int(first[0]) if request.painted and not _recognised(condition) else 0
-        if condition.objects == "textured" or (condition.objects == "none" and not request.painted):
+        settled = request.view.kind == "bootstrap"
+        surfaces = 0 if settled or _recognised(condition) else int(first[0])
+        if condition.objects == "textured" or (condition.objects == "none" and settled):
             which = Imagination(surfaces=surfaces)
         elif condition.objects == "boxes":
             which = Imagination(surfaces=surfaces, furniture=int(first[0]), boxed=True)
@@ -144,7 +147,7 @@ class ProceduralImages:
         known = np.where(objects | ~shown, 0, sure).astype(np.float32)
         rgb = _keep_tone(rgb, shot.rgb, condition.rgb, known)
         rng = np.random.default_rng(_stream(request.seed, 0xF1A3))
-        rgb = strayed(rgb, _surfaces_of(shot), config.phase, rng)
+        rgb = strayed(rgb, _surfaces_of(shot, request.view.camera), config.phase, rng)
         return softened(exposed(rgb, config.exposure, rng), config.softness)
 
     def _shot(self, which: Imagination, view: View) -> Future[Shot]:
@@ -200,13 +203,18 @@ def _shown(condition: Condition, shot: Shot) -> Bool[np.ndarray, "h w"]:
     """Pixels at which the condition shows the surface that was drawn; of boxes' surfaces there is nothing to show."""
     depth = shot.gbuffer.depth
     same = (condition.depth > 0) & (np.abs(condition.depth - depth) <= AGREEMENT * np.maximum(depth, 0.1))
+    if condition.object is not None:
+        same &= condition.object == (shot.object != OUTSIDE)
     return same if condition.objects == "textured" else same & (shot.object == OUTSIDE)
 
 
-def _surfaces_of(shot: Shot) -> Int[np.ndarray, "h w"]:
-    """A number for each object, and for each way that structure faces."""
-    facing = np.round(shot.gbuffer.normal * 2).astype(np.int64) @ np.array([1, 5, 25])
-    return np.where(shot.object == OUTSIDE, -1 - (facing + 62), shot.object)
+def _surfaces_of(shot: Shot, camera: Camera) -> Int[np.ndarray, "h w"]:
+    """A number for each object, and for each plane of the structure to within PLANES."""
+    normal = shot.gbuffer.normal.astype(np.float64)
+    place = camera_center(camera) + shot.gbuffer.depth[..., None] * camera_rays(camera).reshape(normal.shape)
+    offset = np.round((normal * place).sum(axis=-1) / PLANES + 0.3).astype(np.int64)
+    plane = np.round(normal * 2).astype(np.int64) @ np.array([1, 5, 25]) + 125 * offset
+    return np.where(shot.object == OUTSIDE, plane - 10**9, shot.object)
 
 
 def _air(context: SceneContext, view: View) -> float:
