@@ -93,7 +93,7 @@ def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings
     edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
     if condition.objects != "boxes" or condition.object is None:
         return edges
-    near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1))
+    near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1)).astype(bool)
     return edges & ~near
 
 
