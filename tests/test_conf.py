@@ -8,6 +8,7 @@ import pytest
 from wm.run import load_config, options
 from wm.schema import RunConfig
 from wm.synth.backends import CHOICES
+from wm.synth.image.violations import KINDS
 from wm.validate import RANGES, ConfigError, validate_config
 
 SCENES = {"gothic": 6, "scandinavian": 4, "beach_house": None, "roman_estate": None, "clockwork_garden": None}
@@ -21,6 +22,8 @@ VARIANTS = {
     "no_depth_loss": {"fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
     "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
 }
+PROFILES = {"image": {"like_closed", "like_distilled"}}  # files of a group that select a backend another file selects too
+FLAWS = ("drift", "exposure", "phase", "softness", *KINDS)
 PRESETS = {"draft": (344, 192), "standard": (688, 384), "paper": (1376, 768)}
 
 
@@ -40,7 +43,16 @@ def test_the_groups_offer_what_they_should():
     assert set(options("variant")) == set(VARIANTS)
     assert set(options("preset")) == set(PRESETS)
     for group, names in CHOICES.items():
-        assert set(options(group)) == set(names)
+        assert set(options(group)) == set(names) | PROFILES.get(group, set())
+
+
+@pytest.mark.parametrize("profile", ["like_closed", "like_distilled"])
+def test_a_profile_of_an_image_model_changes_flaws_and_nothing_else(profile):
+    plain, flawed = (leaves(load_config(["+scene=gothic", f"image={name}"])) for name in ("procedural", profile))
+    changed = {key for key, value in flawed.items() if value != plain[key]}
+    assert changed == {f"image.{flaw}" for flaw in FLAWS}
+    assert all(flawed[key] > plain[key] for key in changed)
+    assert sum(flawed[f"image.{kind}"] for kind in KINDS) < 1
 
 
 @functools.cache
@@ -94,7 +106,7 @@ def test_a_scene_of_ones_own():
         (["+scene=gotik"], "scene=gotik: no such scene; choose one of beach_house, .*scandinavian"),
         (["preset=fast"], "preset=fast: no such preset; choose one of draft, paper, standard"),
         (["variant=none"], "variant=none: no such variant; choose one of depth_objects, .*no_pcd_init"),
-        (["image=gan"], "image=gan: no such image; choose one of procedural"),
+        (["image=gan"], "image=gan: no such image; choose one of like_closed, like_distilled, procedural"),
         (["image.name=gan"], "image.name='gan': choose one of procedural"),
         (["language.name=gpt"], "language.name='gpt': choose one of grammar"),
         (["fit.stepz=3"], "fit.stepz: no such key; did you mean fit.steps. fit has init, .*steps"),

@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wm.schema import VerifySettings
-from wm.synth.agreement import agreement, align_depth
+from wm.synth.agreement import agreement
+from wm.synth.alignment import align_depth
 from wm.synth.canny import depth_edges
 from wm.synth.verify import verify
 

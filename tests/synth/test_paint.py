@@ -16,8 +16,8 @@ from wm.geometry.raycast import build_ray_scene, cast
 from wm.geometry.structure import build_structure
 from wm.geometry.texture import accumulate
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
-from wm.synth.attempt import attempt_seed
-from wm.synth.backends import ImageResult
+from wm.synth.attempt import attempt_seed, binding_edges
+from wm.synth.backends import Condition, ImageResult
 from wm.synth.paint import PaintSettings, Scaffold, paint_scene, scene_depth_range
 from wm.types import View
 
@@ -286,3 +286,16 @@ def test_the_depth_range_is_the_scenes():
         gbuffer = cast(scaffold().scene, one.camera)
         assert gbuffer.depth.min() >= 0.7 * near
         assert gbuffer.depth.max() <= 1.2 * far
+
+
+def test_the_edges_of_boxes_do_not_bind():
+    shown = cast(scaffold().scene, VIEWS[0].camera)
+    things = shown.hit & (scaffold().scene.mesh.face_object[shown.face] >= 0)
+    condition = Condition(np.zeros((64, 96, 3), np.float32), np.zeros((64, 96), np.float32), shown.depth, "boxes", things)
+    verification = SETTINGS.verify
+    every, binding = (
+        binding_edges(shown, dataclasses.replace(condition, objects=mode), verification) for mode in ("textured", "boxes")
+    )
+    assert (every & things).any()
+    assert not (binding & things).any()
+    assert not (binding & ~every).any()

@@ -91,3 +91,28 @@ def test_verification_can_be_switched_off():
 def test_an_estimate_of_another_size_is_refused():
     with pytest.raises(ValueError, match="estimate"):
         verify(step()[1], np.ones((4, 4)), VerifySettings())
+
+
+def test_a_small_thing_that_is_missing_passes_recall_and_fails_depth():
+    depth = step()[0]
+    depth[12:18, 4:10] = 1.0
+    edges = depth_edges(depth, np.ones(SHAPE, bool), low=0.1, high=0.3)
+    without = step()[0]
+    assert verify(edges, without, VerifySettings()).passed
+    verdict = verify(edges, without, VerifySettings(), depth=depth)
+    assert not verdict.passed
+    assert verdict.disagreement == pytest.approx(4 / depth.size)  # what lies two pixels within its silhouette
+    assert "disagrees" in verdict.reason
+    assert verify(edges, without, VerifySettings(max_disagreement=1.0), depth=depth).passed  # the paper's test alone
+
+
+def test_a_true_image_passes_both():
+    depth, edges = step()
+    verdict = verify(edges, 3 * depth + 1, VerifySettings(), depth=depth)
+    assert (verdict.passed, verdict.recall, verdict.disagreement) == (True, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("estimate", [None, np.full(SHAPE, np.nan)])
+def test_held_to_depth_it_still_fails_closed(estimate):
+    depth, edges = step()
+    assert not verify(edges, estimate, VerifySettings(), depth=depth).passed

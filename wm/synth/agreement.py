@@ -1,6 +1,6 @@
 """Where an image that failed verification may still be used: the pixels at which it agrees with the scaffold.
 
-A pixel agrees if the depth estimated from the image, brought to the scaffold's scale and shift, is within a tenth of the
+A pixel agrees if the depth estimated from the image, brought to the scaffold's scale and shift, is within the tolerance of the
 scaffold's depth there, and no scaffold edge that the image misses is near. The paper drops such views; a view that is wrong
 about one chair still shows the rest of the room.
 """
@@ -9,11 +9,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from wm.schema import VerifySettings
+from wm.synth.alignment import aligned_depth
 from wm.synth.canny import depth_edges
 from wm.synth.verify import dilate, dilation_radius
-
-_TOLERANCE = 0.1  # of the scaffold's depth
-_ROUNDS = 20  # of reweighting: the alignment moves by less than 1e-3 after ten
 
 
 def agreement(
@@ -37,29 +35,8 @@ def agreement(
     valid = hit & finite
     if not valid.any():
         return valid
-    scale, shift = align_depth(estimate[valid], depth[valid])
-    aligned = scale * np.where(finite, estimate, 0) + shift
-    agrees = valid & (np.abs(aligned - depth) <= _TOLERANCE * depth)
+    aligned = aligned_depth(depth, valid, estimate)
+    agrees = valid & (np.abs(aligned - depth) <= settings.tolerance * depth)
     radius = dilation_radius(settings, hit.shape[1])
     found = dilate(depth_edges(estimate, finite, low=settings.low, high=settings.high), radius)
     return agrees & ~dilate(scaffold_edges & ~found, radius)
-
-
-def align_depth(estimate: Float[np.ndarray, "n"], depth: Float[np.ndarray, "n"]) -> tuple[float, float]:
-    """(scale, shift) that brings an estimate to the depth with the least sum of absolute differences.
-
-    By iteratively reweighted least squares, so that a wrong part of the image does not bend the rest. A constant estimate has
-    scale 0.
-    """
-    x, y = estimate.astype(np.float64), depth.astype(np.float64)
-    floor = 1e-3 * max(float(np.abs(y).max()), np.finfo(np.float64).tiny)
-    weight = np.ones_like(x)
-    scale = shift = 0.0
-    for _ in range(_ROUNDS):
-        mean_x, mean_y = np.average(x, weights=weight), np.average(y, weights=weight)
-        variance = np.average((x - mean_x) ** 2, weights=weight)
-        covariance = np.average((x - mean_x) * (y - mean_y), weights=weight)
-        scale = float(covariance / variance) if variance > 0 else 0.0
-        shift = float(mean_y - scale * mean_x)
-        weight = 1 / np.maximum(np.abs(scale * x + shift - y), floor)
-    return scale, shift

@@ -6,13 +6,14 @@ Images are rounded to 8 bits before they are used for anything, so that what is 
 import dataclasses
 
 import numpy as np
-from jaxtyping import Float, UInt8
+from jaxtyping import Bool, Float, UInt8
+from scipy.ndimage import maximum_filter
 
 from wm.schema import VerifySettings
 from wm.synth.agreement import agreement
-from wm.synth.backends import DepthBackend, ImageBackend, ImageRequest
+from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest
 from wm.synth.canny import depth_edges
-from wm.synth.verify import verify
+from wm.synth.verify import dilation_radius, verify
 from wm.types import GBuffer
 
 
@@ -43,7 +44,7 @@ def paint_view(
     identity: tuple[int, int],
     reference: str | None,
 ) -> PaintedView:
-    """One finished view: generated until an image passes; at the limit the one of the highest recall, where it agrees.
+    """One finished view: generated until an image passes; at the limit the one that comes nearest, where it agrees.
 
     Args:
       request: what the image model is asked; its seed is set for each attempt.
@@ -56,7 +57,8 @@ def paint_view(
     Raises:
       ValueError: the image backend returned something that is no image of the view's size.
     """
-    edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
+    edges = binding_edges(shown, request.condition, settings)
+    held = shown.depth if request.condition.objects == "textured" else None
     condition = as_bytes(request.condition.rgb)
     best: tuple[float, PaintedView, np.ndarray | None] | None = None
     for attempt in range(max(settings.max_attempts, 1)):
@@ -66,7 +68,7 @@ def paint_view(
         rgb = as_bytes(result.rgb)
         result = dataclasses.replace(result, rgb=as_float(rgb))
         estimate = depth.estimate(result, seed=request.seed) if settings.enabled else None
-        verdict = verify(edges, estimate, settings)
+        verdict = verify(edges, estimate, settings, depth=held)
         painted = PaintedView(
             rgb=rgb,
             mask=np.ones(shown.hit.shape, bool),
@@ -78,12 +80,21 @@ def paint_view(
         )
         if verdict.passed:
             return painted
-        score = -1.0 if verdict.recall is None else verdict.recall
+        score = (-1.0 if verdict.recall is None else verdict.recall) - (verdict.disagreement or 0.0)
         if best is None or score > best[0]:
             best = (score, painted, estimate)
     assert best is not None
     mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
     return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
+
+
+def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Bool[np.ndarray, "h w"]:
+    """The conditioning scaffold's depth edges that an image must have: of a box, whose filling is open, none."""
+    edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
+    if condition.objects != "boxes" or condition.object is None:
+        return edges
+    near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1)).astype(bool)
+    return edges & ~near
 
 
 def _check(rgb: np.ndarray, request: ImageRequest) -> None:

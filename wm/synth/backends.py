@@ -35,6 +35,8 @@ class Condition:
     rgb: np.ndarray  # [h, w, 3] textured objects, alpha-blended accumulated texture, grayscale depth elsewhere
     known: np.ndarray  # [h, w] float32 in [0, 1]: how far rgb shows appearance and not depth
     depth: np.ndarray  # [h, w] float32 z-depth of the conditioning scaffold, metres, 0 where nothing is hit
+    objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none; so that a box is not taken for a crate
+    object: np.ndarray | None = None  # [h, w] bool: where the scaffold has an object, boxes included; None for nowhere
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

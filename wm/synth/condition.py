@@ -56,15 +56,15 @@ def make_condition(
     if settings.wall_texture and atlas is not None:
         seen, known = sample_atlas(atlas, gbuffer, camera, texture)
         rgb += known[..., None] * (seen - rgb)
+    shown = gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE)
     if settings.objects != "none":
-        shown = gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE)
         light = _headlight(gbuffer, camera, shown)[:, None]
         if settings.objects == "textured":
             rgb[shown] = light * _face_colors(mesh, objects)[gbuffer.face[shown]]
             known[shown] = 1.0
         else:
             rgb[shown] = light * np.float32(BOX_COLOR)
-    return Condition(rgb=rgb, known=known, depth=gbuffer.depth)
+    return Condition(rgb=rgb, known=known, depth=gbuffer.depth, objects=settings.objects, object=shown)
 
 
 def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.ndarray, "h w"]:

@@ -1,32 +1,44 @@
-"""The offline image model: it paints the exact world of wm.synth.procedural, and behaves as an image model does.
+"""The offline image model: it paints worlds of wm.synth.procedural, and behaves as an image model does.
 
-Given the condition X it returns
-    out = W + known * lowpass(X - W) + (1 - known) * drift,
-W the world from this camera. Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of
-the result are those of X) while the world's fine detail is restored; where X shows only depth the model invents: the world under
-a tone that drifts from view to view by a seeded gain and hue, smooth over the image. Objects that X shows keep their identity and
-get the world's materials and light; objects that X leaves out are drawn all the same, with a stronger drift of their own.
+Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it invents is a whole world (wm.synth.image
+.imagination), picked by the view's seed, seen from the view's camera as W:
+    out = W + known * lowpass(X - W) + (1 - known) * drift.
+- Objects that X shows textured are the scene's; a grey box is filled with other furniture; where X shows no objects, the room is
+  furnished in some other way.
+- Walls, floor and ceiling are finished as the scene's where X shows any of their texture, and in a room's bootstrap views, which
+  settle how it looks; otherwise in some other way that the theme allows.
+- Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
+  while the world's fine detail is restored.
+Imperfections (wm.synth.image.imperfections) and violations of the structure (wm.synth.image.violations) come on top, at the
+strengths of ImageConfig; with all of them at 0 and nothing left open the image is the exact world, the truth of held-out views.
 """
 
 import dataclasses
 import os
-from collections.abc import Sequence
+import threading
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
-from jaxtyping import Bool, Float
-from scipy.ndimage import gaussian_filter, zoom
+from jaxtyping import Bool, Float, Int
+from scipy.ndimage import gaussian_filter
 
+from wm.geometry.camera import camera_center, camera_rays
 from wm.host import cores
 from wm.schema import ImageConfig
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
+from wm.synth.image.imagination import SCENE, Imagination, imagined
+from wm.synth.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
+from wm.synth.image.violations import Violation, draw_violation
 from wm.synth.procedural.room import bake_settings
 from wm.synth.procedural.worker import Recipe, WorkerWorld
 from wm.synth.procedural.world import Shot, World
-from wm.types import OUTSIDE, View
+from wm.types import OUTSIDE, Camera, View
 
 SURE = 0.85
 """How far known a pixel must be before its tone counts: below, the condition is part grey depth."""
+RECOGNISED = 0.01
+"""Share of an image's structure that must be known for the model to recognise the room's finish and go on in it."""
 SHOTS_AT_ONCE, KEPT_SHOTS = 2, 4
 """Views whose share of the work that no condition changes is done side by side, and how many of them are kept."""
 TONE_SCALE = 5 / 688
@@ -35,67 +47,132 @@ AGREEMENT = 0.03
 """Relative difference of depth up to which the condition is taken to show what the world has there."""
 INVENTION = 4.0
 """How many times stronger an object that the condition does not show drifts than a wall."""
+PLANES = 0.05
+"""Metres between planes of the structure that count as two surfaces: a pane lies deeper than that in its wall."""
+ELBOW_ROOM = 0.35
+"""Metres between a camera and imagined furniture: a model draws a view, not the inside of a wardrobe."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Scenery:
+    """A world under the camera, and the scene it is made of."""
+
+    context: SceneContext
+    world: World | WorkerWorld
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ProceduralImages:
-    """The backend. Rooms are dressed and lit when a view first needs them."""
+    """The backend. A world is made when a view first needs it, and its rooms are dressed and lit when one first sees them."""
 
-    world: World | WorkerWorld
+    make_scenery: Callable[[Imagination], Scenery]
     config: ImageConfig
     _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
     _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
+    _sceneries: dict[Imagination, Scenery] = dataclasses.field(default_factory=dict)
+    _lock: threading.Lock = dataclasses.field(default_factory=threading.Lock)
+    _left_open: threading.Event = dataclasses.field(default_factory=threading.Event)  # by some condition so far
 
     def prefetch(self, views: Sequence[View]) -> None:
-        """Starts on the views that come next: what they show of the world, whatever their conditions will be."""
-        for view in views[:KEPT_SHOTS]:
-            self._shot(view)
+        """Starts on the views that come next: what they show of the scene, unless conditions leave open what that is."""
+        for view in () if self._left_open.is_set() else views[:KEPT_SHOTS]:
+            self._shot(SCENE, view)
 
     def generate(self, request: ImageRequest) -> ImageResult:
-        """The world seen from the request's camera, in the tone that the condition already has; same request, same bytes.
+        """What the model makes of the condition; same request, same bytes.
 
         Raises:
           ValueError: the condition's images are not of the camera's size.
         """
-        shot, condition = self._shot(request.view).result(), request.condition
-        _check_size(condition, shot)
-        rng = np.random.default_rng(np.random.SeedSequence([request.seed, 0x1A6E]))
-        invented = _drifted(shot.rgb, self.config.drift, rng)
-        shown = _shown(condition, shot)
-        objects = shot.object != OUTSIDE
-        rgb = np.where((objects & ~shown)[..., None], _object_drift(shot, self.config.drift * INVENTION, rng), invented)
-        rgb = np.where((objects & shown)[..., None], shot.rgb, rgb)
-        sure = np.clip((condition.known - SURE) / (1 - SURE), 0, 1)
-        known = np.where(objects | ~shown, 0, sure).astype(np.float32)
-        rgb = _keep_tone(rgb, shot.rgb, condition.rgb, known)
+        _check_size(request.condition, request.view.camera)
+        which = self._imagine(request)
+        scenery, shot = self.scenery(which), self._shot(which, request.view).result()
+        gone_wrong = self._violation(request, scenery, shot)
+        shot = shot if gone_wrong is None else scenery.world.shoot(request.view.camera, gone_wrong.edit)
+        rgb = self._painted(request, shot)
         return ImageResult(
             rgb=np.clip(rgb, 0, 1).astype(np.float32),
             drawn_depth=shot.gbuffer.depth.copy(),
             drawn_object=shot.object.copy(),
-            drawn_labels=self.world.labels,
+            drawn_labels=scenery.world.labels,
         )
 
-    def _shot(self, view: View) -> Future[Shot]:
-        """What the world shows the view, under way or done; the latest few are kept, so that a further attempt costs no other."""
-        camera = view.camera
+    def truth(self, view: View) -> Float[np.ndarray, "h w 3"]:
+        """The exact world from a view's camera."""
+        return np.clip(self.scenery(SCENE).world.shoot(view.camera).rgb, 0, 1)
+
+    def scenery(self, which: Imagination) -> Scenery:
+        """A world, made now if it is not there yet."""
+        with self._lock:
+            if which not in self._sceneries:
+                self._sceneries[which] = self.make_scenery(which)
+            return self._sceneries[which]
+
+    def _imagine(self, request: ImageRequest) -> Imagination:
+        """The world that a request is answered with: the scene's own in all that the condition shows, and what the seed says."""
+        condition, count = request.condition, self.config.imaginations
+        if count == 0:
+            return SCENE
+        first = np.random.default_rng(_stream(request.seed, 0x1DEA)).permutation(count) + 1
+        settled = request.view.kind == "bootstrap"
+        surfaces = 0 if settled or _recognised(condition) else int(first[0])
+        if condition.objects == "textured" or (condition.objects == "none" and settled):
+            which = Imagination(surfaces=surfaces)
+        elif condition.objects == "boxes":
+            which = Imagination(surfaces=surfaces, furniture=int(first[0]), boxed=True)
+        else:
+            rooms = [Imagination(surfaces=surfaces, furniture=int(k)) for k in first]
+            which = max(rooms, key=lambda one: min(_air(self.scenery(one).context, request.view), ELBOW_ROOM))
+        if which != SCENE:
+            self._left_open.set()
+        return which
+
+    def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
+        rng = np.random.default_rng(_stream(request.seed, 0xBAD))
+        objects = request.condition.objects != "none"
+        return draw_violation(self.config, scenery.context, request.view, shot.gbuffer, shot.object, rng, objects=objects)
+
+    def _painted(self, request: ImageRequest, shot: Shot) -> Float[np.ndarray, "h w 3"]:
+        """The shot in the tone that the condition has, with the model's imperfections."""
+        condition, config = request.condition, self.config
+        rng = np.random.default_rng(_stream(request.seed, 0x1A6E))
+        invented = drifted(shot.rgb, config.drift, rng)
+        shown = _shown(condition, shot)
+        objects = shot.object != OUTSIDE
+        rgb = np.where(
+            (objects & ~shown)[..., None], drifted_apart(shot.rgb, shot.object, config.drift * INVENTION, rng), invented
+        )
+        rgb = np.where((objects & shown)[..., None], shot.rgb, rgb)
+        sure = np.clip((condition.known - SURE) / (1 - SURE), 0, 1)
+        known = np.where(objects | ~shown, 0, sure).astype(np.float32)
+        rgb = _keep_tone(rgb, shot.rgb, condition.rgb, known)
+        rng = np.random.default_rng(_stream(request.seed, 0xF1A3))
+        rgb = strayed(rgb, _surfaces_of(shot, request.view.camera), config.phase, rng)
+        return softened(exposed(rgb, config.exposure, rng), config.softness)
+
+    def _shot(self, which: Imagination, view: View) -> Future[Shot]:
+        """What a world shows the view, under way or done; the latest few are kept, so that a further attempt costs no other."""
+        camera, scenery = view.camera, self.scenery(which)
         arrays = (np.asarray(x, np.float64).tobytes() for x in (camera.T_cam_world, camera.focal, camera.principal))
-        key = (*arrays, camera.width, camera.height)
+        key = (which, *arrays, camera.width, camera.height)
         if key not in self._shots:
-            self._shots[key] = self._pool.submit(self.world.shoot, camera)
+            self._shots[key] = self._pool.submit(scenery.world.shoot, camera)
             while len(self._shots) > KEPT_SHOTS:
                 del self._shots[next(iter(self._shots))]
         return self._shots[key]
 
-    def truth(self, view: View) -> Float[np.ndarray, "h w 3"]:
-        """The exact world from a view's camera."""
-        return np.clip(self.world.shoot(view.camera).rgb, 0, 1)
-
 
 def make(config: ImageConfig, context: SceneContext) -> ProceduralImages:
     """The offline image backend of a scene. Raises: ValueError for a texel size that is not a positive length."""
-    recipe = Recipe(context, supersampling=config.supersampling, settings=bake_settings(config.texel_size))
+    settings = bake_settings(config.texel_size)
     apart = config.worker and cores() > 1 and os.name == "posix"
-    return ProceduralImages(world=WorkerWorld(recipe, lanes=SHOTS_AT_ONCE) if apart else recipe.make(), config=config)
+
+    def make_scenery(which: Imagination) -> Scenery:
+        scene, style = imagined(context, which)
+        recipe = Recipe(scene, supersampling=config.supersampling, settings=settings, style=style)
+        return Scenery(scene, WorkerWorld(recipe, lanes=SHOTS_AT_ONCE) if apart else recipe.make())
+
+    return ProceduralImages(make_scenery=make_scenery, config=config)
 
 
 def lowpass(image: Float[np.ndarray, "h w c"], weight: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w c"]:
@@ -114,39 +191,49 @@ def _keep_tone(invented: np.ndarray, world: np.ndarray, shown: np.ndarray, known
     return invented + known[..., None] * (kept - invented)
 
 
+def _recognised(condition: Condition) -> bool:
+    """Whether the condition shows enough of the structure's texture to tell how the room is finished."""
+    structure = condition.depth > 0
+    if condition.object is not None:
+        structure &= ~condition.object
+    return float(np.mean((condition.known > 0.5) & structure)) >= RECOGNISED
+
+
 def _shown(condition: Condition, shot: Shot) -> Bool[np.ndarray, "h w"]:
-    """Pixels whose surface the condition shows where the world has it."""
+    """Pixels at which the condition shows the surface that was drawn; of boxes' surfaces there is nothing to show."""
     depth = shot.gbuffer.depth
-    return (condition.depth > 0) & (np.abs(condition.depth - depth) <= AGREEMENT * np.maximum(depth, 0.1))
+    same = (condition.depth > 0) & (np.abs(condition.depth - depth) <= AGREEMENT * np.maximum(depth, 0.1))
+    if condition.object is not None:
+        same &= condition.object == (shot.object != OUTSIDE)
+    return same if condition.objects == "textured" else same & (shot.object == OUTSIDE)
 
 
-def _drifted(image: np.ndarray, amount: float, rng: np.random.Generator) -> np.ndarray:
-    """The image under a gain and a hue that wander smoothly: a value for the view, and a field of 3 x 4 knots."""
-    whole = rng.normal(size=3) * 0.35 + rng.normal()
-    knots = rng.normal(size=(3, 4, 3)) * 0.35 + rng.normal(size=(3, 4, 1)) * 0.35
-    if amount == 0:
-        return image
-    height, width = image.shape[:2]
-    field = np.stack([_stretched(knots[..., c], height, width) for c in range(3)], axis=-1)
-    return image * (1 + np.float32(amount) * (whole + field)).astype(np.float32)
+def _surfaces_of(shot: Shot, camera: Camera) -> Int[np.ndarray, "h w"]:
+    """A number for each object, and for each plane of the structure to within PLANES."""
+    normal = shot.gbuffer.normal.astype(np.float64)
+    place = camera_center(camera) + shot.gbuffer.depth[..., None] * camera_rays(camera).reshape(normal.shape)
+    offset = np.round((normal * place).sum(axis=-1) / PLANES + 0.3).astype(np.int64)
+    plane = np.round(normal * 2).astype(np.int64) @ np.array([1, 5, 25]) + 125 * offset
+    return np.where(shot.object == OUTSIDE, plane - 10**9, shot.object)
 
 
-def _object_drift(shot: Shot, amount: float, rng: np.random.Generator) -> np.ndarray:
-    """Every object under a gain and hue of its own: what a model invents anew in each view."""
-    count = int(shot.object.max(initial=OUTSIDE)) + 2
-    gains = (1 + amount * (rng.normal(size=(count, 3)) * 0.7 + rng.normal(size=(count, 1)))).astype(np.float32)
-    gains[0] = 1  # structure
-    return shot.rgb * np.maximum(gains[shot.object + 1], 0.2)
+def _air(context: SceneContext, view: View) -> float:
+    """Metres from a camera to the nearest box of furniture, 0 inside one."""
+    eye = camera_center(view.camera)
+    far = [np.inf]
+    for thing in context.objects:
+        if thing.room == view.room:
+            local = (eye - thing.T_world_object[:3, 3]) @ thing.T_world_object[:3, :3] - np.array([0, 0, thing.size[2] / 2])
+            far.append(float(np.linalg.norm(np.maximum(np.abs(local) - thing.size / 2, 0))))
+    return min(far)
 
 
-def _stretched(knots: np.ndarray, height: int, width: int) -> np.ndarray:
-    rows, columns = knots.shape
-    stretched = zoom(knots, (max(height, rows) / rows, max(width, columns) / columns), order=1, mode="nearest", grid_mode=True)
-    return np.asarray(stretched)[:height, :width]
+def _stream(seed: int, purpose: int) -> np.random.SeedSequence:
+    return np.random.SeedSequence([seed, purpose])
 
 
-def _check_size(condition: Condition, shot: Shot) -> None:
-    size = shot.rgb.shape[:2]
+def _check_size(condition: Condition, camera: Camera) -> None:
+    size = (camera.height, camera.width)
     if condition.rgb.shape[:2] != size or condition.known.shape != size or condition.depth.shape != size:
         raise ValueError(
             f"the condition is {condition.rgb.shape[:2]}, known {condition.known.shape}, depth {condition.depth.shape}; "

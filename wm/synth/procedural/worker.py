@@ -18,6 +18,8 @@ from typing import Any
 
 from wm.host import prepare_process
 from wm.synth.backends import SceneContext
+from wm.synth.procedural.edit import Edit
+from wm.synth.procedural.finish import Style
 from wm.synth.procedural.light import BakeSettings
 from wm.synth.procedural.world import Shot, World
 from wm.types import Camera
@@ -30,9 +32,10 @@ class Recipe:
     context: SceneContext
     supersampling: int
     settings: BakeSettings
+    style: Style | None = None  # None: that of the context's theme
 
     def make(self) -> World:
-        return World(self.context, supersampling=self.supersampling, settings=self.settings)
+        return World(self.context, supersampling=self.supersampling, settings=self.settings, style=self.style)
 
 
 class WorkerWorld:
@@ -54,12 +57,12 @@ class WorkerWorld:
         self.labels = tuple(thing.label for thing in recipe.context.objects)  # as `World.labels`
         self._first, self._starting = ours[0], threading.Lock()
 
-    def shoot(self, camera: Camera) -> Shot:
+    def shoot(self, camera: Camera, edit: Edit | None = None) -> Shot:
         """The image of a camera. Raises: what the world raised; RuntimeError if the process has ended."""
         lane = self._free.get()
         try:
             self._start()
-            answer = _asked(lane, camera)
+            answer = _asked(lane, (camera, edit))
         except (EOFError, OSError) as error:
             raise RuntimeError(f"the process that shades the offline world ended (exit code {self._process.wait()})") from error
         finally:
@@ -75,8 +78,8 @@ class WorkerWorld:
                 self._recipe = None
 
 
-def _asked(lane: Connection, camera: Camera) -> Any:
-    lane.send(camera)
+def _asked(lane: Connection, question: tuple[Camera, Edit | None]) -> Any:
+    lane.send(question)
     return lane.recv()
 
 
@@ -103,11 +106,11 @@ def serve(pipes: list[Connection]) -> None:
 def _serve_lane(world: World, pipe: Connection) -> None:
     while True:
         try:
-            camera = pipe.recv()
+            camera, edit = pipe.recv()
         except EOFError:
             return
         try:
-            answer: Shot | Exception = world.shoot(camera)
+            answer: Shot | Exception = world.shoot(camera, edit)
         except Exception as error:
             answer = error
         try:

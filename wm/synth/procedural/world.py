@@ -6,6 +6,7 @@ without view-dependence can show it. Tiers of work: per scene one BVH; per room,
 """
 
 import collections
+import copy
 import dataclasses
 import threading
 
@@ -16,6 +17,8 @@ from wm.geometry.mesh import assemble_scene
 from wm.geometry.raycast import build_ray_scene, cast, cast_rays
 from wm.synth.backends import SceneContext
 from wm.synth.procedural.color import LUMINANCE, tone
+from wm.synth.procedural.edit import Edit, edited_mesh
+from wm.synth.procedural.finish import Style
 from wm.synth.procedural.light import BakeSettings, chart_places, facet_weights, look_up, sun_direction
 from wm.synth.procedural.pieces import look
 from wm.synth.procedural.pyramid import sample_pyramid
@@ -43,15 +46,24 @@ class Shot:
 class World:
     """A scene's appearance. Thread-safe; the same context gives the same bytes whatever was asked before."""
 
-    def __init__(self, context: SceneContext, *, supersampling: int = 2, settings: BakeSettings | None = None):
+    def __init__(
+        self,
+        context: SceneContext,
+        *,
+        supersampling: int = 2,
+        settings: BakeSettings | None = None,
+        style: Style | None = None,
+    ):
+        """A world in the style of the context's theme, or in another `style`."""
         self._plan, self._objects, self._seed = context.plan, context.objects, context.seed
         self._settings = settings if settings is not None else BakeSettings()
-        self._style = style_of(context.theme)
+        self._style = style if style is not None else style_of(context.theme)
         self._supersampling = supersampling
         self.mesh = assemble_scene(context.structure, context.objects)
-        self._scene = build_ray_scene(self.mesh)
+        self._scene = self._lit = build_ray_scene(self.mesh)
         self._sun = sun_direction(self.mesh, self._style.light)
         self._surface = self._surface_ids()
+        self._source: np.ndarray | None = None  # face of the unedited mesh that each face looks like; None: itself
         self._rooms: collections.OrderedDict[int, BakedRoom] = collections.OrderedDict()
         self._lock = threading.RLock()
 
@@ -65,7 +77,7 @@ class World:
         with self._lock:
             if index not in self._rooms:
                 self._rooms[index] = bake_room(
-                    self._scene, self._plan, index, self._objects, self._style,
+                    self._lit, self._plan, index, self._objects, self._style,
                     sun=self._sun, seed=self._seed, settings=self._settings,
                 )  # fmt: skip
                 while len(self._rooms) > KEPT:
@@ -73,8 +85,18 @@ class World:
             self._rooms.move_to_end(index)
             return self._rooms[index]
 
-    def shoot(self, camera: Camera) -> Shot:
+    def edited(self, edit: Edit) -> "World":
+        """The world with some things elsewhere, gone or closed, in the light that was baked for all of them in their places."""
+        other = copy.copy(self)
+        other.mesh, other._source = edited_mesh(self.mesh, self._plan, edit)
+        other._scene = build_ray_scene(other.mesh)
+        other._surface = np.append(self._surface[other._source], -1)
+        return other
+
+    def shoot(self, camera: Camera, edit: Edit | None = None) -> Shot:
         """The image of a camera: one sample a pixel, supersampling^2 where surfaces meet."""
+        if edit is not None:
+            return self.edited(edit).shoot(camera)
         gbuffer = cast(self._scene, camera)
         shape = gbuffer.depth.shape
         directions = camera_rays(camera).reshape(-1, 3).astype(np.float32)
@@ -112,6 +134,7 @@ class World:
         length = np.sqrt(np.einsum("ni,ni->n", directions, directions))
         cosine = np.clip(np.abs(np.einsum("ni,ni->n", directions, normal)) / length, 0.05, 1)
         across = depth * length * np.float32(1 / camera.focal[1])  # metres that a pixel spans, seen straight on
+        face = face if self._source is None else self._source[face]
         for index in np.unique(room[room >= 0]):
             baked = self.room(int(index))
             here = room == index
@@ -164,7 +187,7 @@ class World:
         """[n, 3] what polished points show an eye in the middle of the room, dimmer where little light arrives."""
         a, b = barycentric[:, :1], barycentric[:, 1:]
         c = 1 - a - b
-        corners = self.mesh.vertices[self.mesh.faces[face]].astype(np.float32)
+        corners = self._lit.mesh.vertices[self._lit.mesh.faces[face]].astype(np.float32)
         view = c * corners[:, 0] + a * corners[:, 1] + b * corners[:, 2] - baked.eye
         view /= np.maximum(np.linalg.norm(view, axis=1, keepdims=True), 1e-6)
         normals = baked.facets.corner_normal[baked.facet_faces[face]]
