@@ -28,8 +28,8 @@ SMALL = (
     "report.fps=1",
 )
 METRICS = (
-    "psnr ssim m_mae m_rmse n_cos n_ang_deg reproj_mae_norm reproj_absrel navigability navigability_body coverage_1 coverage_3 "
-    "yield atm rooms views gaussians seconds peak_gib"
+    "psnr ssim m_mae m_rmse n_cos n_ang_deg reproj_mae_norm reproj_absrel holes navigability navigability_body "
+    "coverage_1 coverage_3 yield atm rooms views gaussians seconds peak_gib"
 )
 CLOCKED = {"timings.json", "layout.json", "metrics.json", "report.html", "history.json", ".lock"}
 """Files that say how long things took."""

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tests.splat.rooms import SIZE, look, views_of
 from wm.schema import FitSettings
-from wm.splat.cloud import SH_C0, depth_normals, initial_gaussians, quats_from_normals, surface_cloud
+from wm.splat.cloud import SH_C0, Cloud, depth_normals, extended, initial_gaussians, quats_from_normals, surface_cloud, vacant
 
 
 def rotate(quats, v):
@@ -86,6 +86,38 @@ def test_masked_pixels_give_geometry_and_no_colour():
     a, b = surface_cloud(views, 0.3), surface_cloud([red, *views[1:]], 0.3)
     np.testing.assert_array_equal(a.points, b.points)
     assert np.abs(a.colors - b.colors).max() < 0.5 and (b.colors[:, 0] < 0.95).all()
+
+
+def part_of(cloud, which):
+    return Cloud(**{field.name: getattr(cloud, field.name)[which] for field in dataclasses.fields(Cloud)})
+
+
+@given(st.floats(0.5, 3.5))
+def test_what_a_cloud_leaves_bare_is_found_once_a_cell_and_covered_in_the_colours_around(cut):
+    cloud = surface_cloud(views_of(), 0.3)
+    assert not len(vacant(cloud, cloud.points, cloud.normals, cloud.spacings))
+    kept = part_of(cloud, cloud.points[:, 0] < cut)
+    twice = part_of(cloud, np.tile(np.arange(len(cloud.points)), 2))
+    bare = vacant(kept, twice.points, twice.normals, twice.spacings)
+    np.testing.assert_array_equal(bare, np.flatnonzero(cloud.points[:, 0] >= cut))
+    more = dataclasses.replace(part_of(cloud, bare), colors=np.full((len(bare), 3), np.nan))
+    whole = extended(kept, more)
+    assert len(whole.points) == len(cloud.points)
+    np.testing.assert_array_equal(whole.colors[: len(kept.points)], kept.colors)
+    assert (whole.colors >= kept.colors.min(0) - 1e-9).all() and (whole.colors <= kept.colors.max(0) + 1e-9).all()
+    told = extended(kept, dataclasses.replace(more, colors=np.full((len(bare), 3), 0.25)))
+    assert (told.colors[len(kept.points) :] == 0.25).all()
+
+
+def test_bare_detail_is_covered_in_its_own_finer_cells():
+    cloud = surface_cloud(views_of(), 0.3)
+    away = np.array([10.0, 0.0, 0.0])
+    rng = np.random.default_rng(0)
+    points = away + rng.random((2000, 3)) * [0.6, 0.6, 0.0]
+    normals = np.tile([0.0, 0.0, 1.0], (2000, 1))
+    fine = np.where(np.arange(2000) < 1000, 0.1, 0.3)
+    bare = vacant(cloud, points, normals, fine)
+    assert (bare < 1000).sum() in range(36, 50) and (bare >= 1000).sum() in range(4, 10)
 
 
 def test_far_coordinates_are_refused_with_the_reach():

@@ -78,6 +78,6 @@ def times_seen(scene: RayScene, points: SurfacePoints, cameras: Sequence[Camera]
     return times
 
 
-def some_points(points: SurfacePoints, which: Bool[np.ndarray, "p"]) -> SurfacePoints:
-    """The points that `which` picks."""
+def some_points(points: SurfacePoints, which: Bool[np.ndarray, "p"] | Int[np.ndarray, "k"]) -> SurfacePoints:
+    """The points that `which` picks, by a mask or by their indices."""
     return SurfacePoints(points.position[which], points.normal[which], points.face[which])

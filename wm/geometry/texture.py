@@ -23,7 +23,7 @@ from jaxtyping import Bool, Float
 from wm.geometry.atlas import chart_image
 from wm.geometry.sampling import pixel_charts
 from wm.schema import TextureSettings
-from wm.types import Atlas, Camera, GBuffer
+from wm.types import Atlas, Camera, GBuffer, SurfaceKind
 
 _DEFAULTS = TextureSettings()
 _FADE = 0.1  # share of the image's smaller side over which a view fades in from its border
@@ -68,7 +68,7 @@ def accumulate(
       gbuffer: what the camera sees of the true scaffold: the mesh the atlas was built from (or one that begins with its faces).
       camera: the camera of that G-buffer.
       rgb: the view's image, sRGB in [0, 1].
-      room: the view's room; surfaces of other rooms are left alone, though the view may see them through a door.
+      room: the view's room; surfaces of other rooms but reveals are left alone, though the view may see them through a door.
       settings: facing, occlusion and texel knobs.
       usable: pixels that may be used; None for all.
 
@@ -92,7 +92,8 @@ def accumulate_in_place(
 ) -> None:
     """As `accumulate`, into the colour and weight of an atlas that the caller owns: a view costs what it sees, not the scene."""
     shown = pixel_charts(atlas, gbuffer)
-    mine = np.append(atlas.chart_room == room, False)[shown]
+    # A door's reveal is numbered with one of its rooms and seen from both: either's views paint it.
+    mine = np.append((atlas.chart_room == room) | (atlas.chart_kind == SurfaceKind.REVEAL), False)[shown]
     shown = np.where(mine if usable is None else mine & usable, shown, np.int32(-1))
     picture = _Picture(
         camera=camera,

@@ -63,6 +63,7 @@ _ROWS = [
     ("n_ang_deg", "N-Ang", "{:.2f}°", "", "down"),
     ("reproj_mae_norm", "Reproj. MAE-norm", "{:.4f}", "depth of one view moved into another", "down"),
     ("reproj_absrel", "Reproj. AbsRel", "{:.4f}", "", "down"),
+    ("holes", "Holes", "{:.2%}", "share of pixels that see through a surface", "down"),
     ("navigability", "Navigability", "{:.1%}", "largest connected share of free floor", "up"),
     ("navigability_body", "Navigability, 0.25 m body", "{:.1%}", "", "up"),
     ("coverage_1", "Surface seen once", "{:.1%}", "share of reachable surface", "up"),

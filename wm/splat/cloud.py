@@ -5,15 +5,19 @@ wanted spacing, those of differently facing surfaces apart (a corner keeps one g
 becomes one gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. What has
 detail, objects and the near side of every silhouette, is gathered in smaller cells: there a gaussian that reaches past the edge
 costs depth and normals most. Views are folded in one at a time, so memory is bounded by the room's surface.
+
+Surface that none of the room's views shows would stay a hole in the room, black from wherever it is seen after all: from the
+next room, or in the corner behind a chair. `vacant` finds where the cloud leaves a surface bare, `extended` covers it.
 """
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import jax
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.ndimage import maximum_filter
+from scipy.spatial import KDTree
 
 from wm.geometry.camera import camera_rotation, unproject_depth
 from wm.schema import FitSettings
@@ -40,6 +44,8 @@ SH_C0 = 0.28209479177387814
 _BITS = 19
 _SHIFT = 0.381966
 """The grid of cells is shifted by this share of a cell, so that walls at round coordinates do not lie between two."""
+_LOOKALIKES, _TURN = 4, 0.5
+"""A point of unknown colour takes the mean of so many others, the nearest: opposite normals count as twice _TURN metres."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -57,7 +63,7 @@ def surface_cloud(views: Iterable[TrainingView], spacing: float, detail_spacing:
 
     Args:
         views: views of the room; only their own pixels with a scaffold depth are used. A cell whose colour no usable pixel shows
-            takes the mean colour of the others.
+            takes that of the nearest others.
         spacing: edge of a cell, metres.
         detail_spacing: the same where the surface has detail (`TrainingView.detailed`, and beside silhouettes); None: nowhere.
 
@@ -78,17 +84,54 @@ def surface_cloud(views: Iterable[TrainingView], spacing: float, detail_spacing:
         fine = np.zeros(len(points), np.int64) if detail_spacing is None else _detailed(view)[own].astype(np.int64)
         keys, sums = _fold(np.concatenate([keys, _cells(points, normals, edges[fine], fine)]), np.concatenate([sums, rows]))
     seen = sums[:, 9:10]
-    fallback = sums[:, 6:9].sum(0) / max(seen.sum(), 1.0)
     length = np.linalg.norm(sums[:, 3:6], axis=1, keepdims=True)
-    return Cloud(
+    cloud = Cloud(
         points=sums[:, :3] / sums[:, 10:11],
         normals=np.where(length > 0, sums[:, 3:6] / np.where(length > 0, length, 1), [0.0, 0.0, 1.0]),
-        colors=np.where(seen > 0, sums[:, 6:9] / np.where(seen > 0, seen, 1), fallback),
+        colors=np.where(seen > 0, sums[:, 6:9] / np.where(seen > 0, seen, 1), np.nan),
         spacings=edges[keys >> 3 * _BITS + 3],
     )
+    return _with_all_colors(cloud)
 
 
-def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, rng: np.random.Generator) -> Gaussians:
+def vacant(
+    cloud: Cloud,
+    points: Float[np.ndarray, "n 3"],
+    normals: Float[np.ndarray, "n 3"],
+    spacings: Float[np.ndarray, "n"],
+) -> Int[np.ndarray, "k"]:
+    """Where the cloud leaves a surface bare: the first point of each cell, in their order, if none of the cloud is about.
+
+    About is in the same cell of the largest spacing and facing the same way: views leave gaps of a fine cell wherever they see
+    a surface at a slant, and the gaussians beside those close them.
+
+    Args:
+        points, normals: on the surface the cloud should cover, metres and unit.
+        spacings: edges of their cells, metres.
+    """
+    if not len(points):
+        return np.zeros(0, np.int64)
+    widest = spacings.max()
+    covered = _cells(cloud.points, cloud.normals, np.full(len(cloud.points), widest), 0)
+    bare = np.flatnonzero(~np.isin(_cells(points, normals, np.full(len(points), widest), 0), covered))
+    fine = (spacings[bare] < widest).astype(np.int64)
+    _, first = np.unique(_cells(points[bare], normals[bare], spacings[bare], fine), return_index=True)
+    return np.sort(bare[first])
+
+
+def extended(cloud: Cloud, more: Cloud) -> Cloud:
+    """Both clouds, `more` last; its colours that are NaN become those of the nearest points that face much the same way."""
+    names = [field.name for field in dataclasses.fields(Cloud)]
+    return _with_all_colors(Cloud(**{name: np.concatenate([getattr(cloud, name), getattr(more, name)]) for name in names}))
+
+
+def initial_gaussians(
+    views: Iterable[TrainingView],
+    *,
+    settings: FitSettings,
+    rng: np.random.Generator,
+    complete: Callable[[Cloud], Cloud] = lambda cloud: cloud,
+) -> Gaussians:
     """The gaussians from which the fit of one room starts (NumPy float32 leaves).
 
     Args:
@@ -97,10 +140,11 @@ def initial_gaussians(views: Iterable[TrainingView], *, settings: FitSettings, r
             room's bounding box, of random colours); the spacings, `opacity` and `sh_degree` are read too, and, where gaussians
             are refined, `refine_spare`.
         rng: read by "random" only.
+        complete: from the cloud of the views that of the whole room.
 
     Source: paper, "Geometry-Regularized 3DGS Scene Reconstruction"; "flat" is ours.
     """
-    cloud = surface_cloud(views, settings.spacing, settings.detail_spacing)
+    cloud = complete(surface_cloud(views, settings.spacing, settings.detail_spacing))
     n = len(cloud.points)
     tangential = np.where(cloud.spacings < settings.spacing, TANGENTIAL_DETAIL, TANGENTIAL)
     size = np.repeat((cloud.spacings * tangential)[:, None], 3, axis=1)
@@ -181,6 +225,20 @@ def _detailed(view: TrainingView) -> np.ndarray:
     farthest = maximum_filter(view.depth, size=2 * reach + 1)
     beside = farthest > view.depth * (1 + RELATIVE_DROP) + DROP
     return beside if view.detailed is None else beside | view.detailed
+
+
+def _with_all_colors(cloud: Cloud) -> Cloud:
+    """The cloud with its NaN colours taken from the nearest others; mid grey where no point has one."""
+    known = ~np.isnan(cloud.colors[:, 0])
+    if known.all():
+        return cloud
+    colors = np.where(known[:, None], cloud.colors, 0.5)
+    if known.any():
+        places = np.concatenate([cloud.points, _TURN * cloud.normals], axis=1)
+        _, found = KDTree(places[known]).query(places[~known], k=min(_LOOKALIKES, int(known.sum())))
+        nearest = np.asarray(found).reshape(int((~known).sum()), -1)
+        colors[~known] = cloud.colors[known][nearest].mean(axis=1)
+    return dataclasses.replace(cloud, colors=colors)
 
 
 def _cells(points, normals, spacing, fine):

@@ -29,6 +29,8 @@ _ssim = jax.jit(ssim)
 EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
 GLIMPSE = 1 / 4
 """Resolution at which a frame of the fly-through asks the scaffold what stands in its way."""
+HOLE = 0.5
+"""Opacity below which a pixel that should show a surface shows a hole in it."""
 SPARSE = 2
 """Every so many rows and columns of a view are moved into another to compare their depths."""
 
@@ -120,7 +122,7 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: He
                 seen.append(one)
                 bar.update()
             rows += _reprojection(seen, job.config.evaluate.min_overlap)
-    names = ("psnr", "ssim", "m_mae", "m_rmse", "n_cos", "n_ang_deg", "reproj_mae_norm", "reproj_absrel")
+    names = ("psnr", "ssim", "m_mae", "m_rmse", "n_cos", "n_ang_deg", "reproj_mae_norm", "reproj_absrel", "holes")
     return {name: _mean([row[name] for row in rows if name in row]) for name in names}
 
 
@@ -133,7 +135,13 @@ def _alignment(scene: Scene, seen: Seen) -> dict[str, float]:
     depth = depth_error(seen.render.depth, seen.gbuffer.depth)
     surfaces = one_surface(_surface_of(scene, seen.gbuffer), seen.gbuffer.normal) & (seen.gbuffer.depth > 0)
     normal = normal_error(seen.render.depth, seen.view.camera, seen.gbuffer.normal, surfaces)
-    return {"m_mae": depth.mae, "m_rmse": depth.rmse, "n_cos": normal.cosine, "n_ang_deg": normal.angle}
+    holes = _share(seen.render.alpha < HOLE, seen.gbuffer.hit)
+    return {"m_mae": depth.mae, "m_rmse": depth.rmse, "n_cos": normal.cosine, "n_ang_deg": normal.angle, "holes": holes}
+
+
+def _share(what: np.ndarray, where: np.ndarray) -> float:
+    """Share of the pixels `where` that are `what`; NaN where there are none."""
+    return float(what[where].mean()) if where.any() else float("nan")
 
 
 def _surface_of(scene: Scene, gbuffer: GBuffer) -> np.ndarray:

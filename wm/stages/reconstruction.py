@@ -11,7 +11,6 @@ from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, visible_rooms
 from wm.host import cores
-from wm.splat.cloud import initial_gaussians
 from wm.splat.padding import Capacity
 from wm.splat.ply import save_ply
 from wm.splat.scene_fit import fit_scene
@@ -22,6 +21,7 @@ from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.scene import Scene
+from wm.stages.starting import starting_gaussians
 from wm.types import OUTSIDE, Gaussians, GBuffer, View
 
 SPLATS, BY_ROOM, HISTORY = "splats.ply", "stages/splats.npz", "stages/history.json"
@@ -108,8 +108,13 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Ca
     folder.drop_others("fit/", {name(r, room) for r in range(config.fit.rounds) for room in rooms})
     seeds = np.random.SeedSequence([config.seed, 1])
 
+    def picture(view: View) -> tuple[np.ndarray, np.ndarray]:
+        stored = painted.view(view)
+        return stored.rgb, stored.mask
+
     def initial(room: int) -> Gaussians:
-        return initial_gaussians(views(room), settings=config.fit, rng=np.random.default_rng(children[room]))
+        rng = np.random.default_rng(children[room])
+        return starting_gaussians(scene, room, views(room), picture, cameras=config.cameras, settings=config.fit, rng=rng)
 
     children = seeds.spawn(len(rooms))
     start = list(in_order(initial, rooms))

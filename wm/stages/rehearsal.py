@@ -17,14 +17,14 @@ import numpy as np
 
 from wm.geometry import cast
 from wm.host import cores
-from wm.schema import FitSettings
-from wm.splat.cloud import initial_gaussians
+from wm.schema import FitSettings, RunConfig
 from wm.splat.padding import Capacity
 from wm.splat.scene_fit import fit_scene
 from wm.splat.training import TrainingView
 from wm.stages.job import Job
 from wm.stages.reconstruction import training_view
 from wm.stages.scene import Scene
+from wm.stages.starting import starting_gaussians
 from wm.types import OUTSIDE, Gaussians, View
 
 CONTENDERS = 0.8
@@ -49,7 +49,7 @@ def rehearsed(job: Job, scene: Scene, *, needed: bool) -> Iterator[Capacity]:
 def rehearse(job: Job, scene: Scene, capacity: Capacity) -> None:
     """One step of the room with the most gaussians, and one held-out render; raises the capacity to what they need."""
     settings = job.config.fit
-    clouds = {room: _cloud(scene, room, settings) for room in contenders(scene, settings)}
+    clouds = {room: _cloud(scene, room, job.config) for room in contenders(scene, settings)}
     room = max(clouds, key=lambda room: len(clouds[room].opacity_logits))
     nothing = jax.tree.map(lambda x: x[:0], clouds[room])
     first = next(_blank_views(scene, room))
@@ -85,8 +85,11 @@ def contenders(scene: Scene, settings: FitSettings) -> list[int]:
     return [room for room, cells in zip(painted, estimate) if cells >= CONTENDERS * estimate.max()]
 
 
-def _cloud(scene: Scene, room: int, settings: FitSettings) -> Gaussians:
-    return initial_gaussians(_blank_views(scene, room), settings=settings, rng=np.random.default_rng(0))
+def _cloud(scene: Scene, room: int, config: RunConfig) -> Gaussians:
+    rng = np.random.default_rng(0)
+    return starting_gaussians(
+        scene, room, _blank_views(scene, room), None, cameras=config.cameras, settings=config.fit, rng=rng
+    )
 
 
 def _blank_views(scene: Scene, room: int) -> Iterator[TrainingView]:

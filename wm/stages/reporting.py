@@ -16,11 +16,15 @@ from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.reconstruction import Reconstruction
 from wm.stages.scene import Scene
-from wm.types import View
+from wm.types import OUTSIDE, View
 
 VIDEO, REPORT = "flythrough.mp4", "report.html"
 SHEET_KINDS = ("bootstrap", "perimeter", "overhead", "doorway")
 """The contact sheet shows one view of each kind a room."""
+ENOUGH = 0.05
+"""Share of a picture beyond which one thing counts no more: a close-up of a wardrobe is no picture of a bedroom."""
+FARTHER = 1e-3
+"""What a metre of median depth counts beside that."""
 
 
 def report(job: Job, scene: Scene, painted: Painted, result: Reconstruction, metrics: dict) -> dict:
@@ -102,17 +106,25 @@ def _sheet_row(painted: Painted, seen: Seen) -> SheetRow:
 
 
 def _heroes(job: Job, scene: Scene) -> dict[str, np.ndarray]:
-    """One held-out render a room, as the evaluation stored it: the view that sees farthest, so that most of the room is in it."""
+    """One held-out render a room, as the evaluation stored it: the view that shows most of what is in the room."""
     heroes = {}
     for index, room in enumerate(scene.rooms):
         members = [view for view in scene.heldout if view.room == index]
         if members:
-            heroes[room] = stored_render(job, max(members, key=lambda view: _reach(scene, view)))
+            heroes[room] = stored_render(job, max(members, key=lambda view: showing(scene, view)))
     return heroes
 
 
-def _reach(scene: Scene, view: View) -> float:
-    return float(np.median(cast(scene.rays, scale_camera(view.camera, GLIMPSE)).depth))
+def showing(scene: Scene, view: View) -> float:
+    """How much of its room a view shows, 0 to 1: the share of the picture that its things fill, each up to ENOUGH of it, less
+    the more it looks up or down (nothing at 45 degrees). Between views without things, the one that sees farther."""
+    gbuffer = cast(scene.rays, scale_camera(view.camera, GLIMPSE))
+    face = gbuffer.face[gbuffer.hit]
+    own = face[(scene.mesh.face_room[face] == view.room) & (scene.mesh.face_object[face] != OUTSIDE)]
+    shares = np.bincount(scene.mesh.face_object[own]) / gbuffer.hit.size
+    farther = FARTHER * float(np.median(gbuffer.depth))
+    rise = float(np.asarray(view.camera.T_cam_world)[2, 2])  # sine of the angle above the horizon
+    return float(np.minimum(shares, ENOUGH).sum()) * max(1 - 2 * rise**2, 0.0) + farther
 
 
 def _scene_curve(history: tuple[dict, ...]) -> list[dict]:

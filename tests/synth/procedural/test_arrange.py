@@ -7,7 +7,9 @@ import pytest
 import shapely
 from scipy import ndimage
 
+from wm.geometry.navigation import cells_inside
 from wm.geometry.site import make_site
+from wm.schema import NavigationSettings
 from wm.synth.procedural.arrange import furnish_site, scene_object
 from wm.synth.procedural.programmes import PROGRAMME
 from wm.synth.procedural.style import style_of
@@ -15,6 +17,7 @@ from wm.synth.procedural.style import style_of
 TYPES = tuple(PROGRAMME)
 THEMES = ("gothic mansion", "scandinavian flat", "beach house", "roman villa", "surreal dream", "cyberpunk")
 ROOMS = 42
+NAVIGATION = NavigationSettings()
 
 
 @functools.cache
@@ -80,21 +83,26 @@ def test_laws_of_a_room(k):
 
 
 def check_walkable(site, placed, solids):
-    """A body of 0.25 m radius reaches every door from every other, and most of the free floor (0.1 m grid)."""
-    x0, y0, x1, y1 = site.polygon.bounds
-    gx, gy = np.meshgrid(np.arange(x0, x1, 0.1), np.arange(y0, y1, 0.1))
-    walkable = site.polygon.buffer(-0.25)
-    bare = shapely.contains_xy(walkable, gx, gy)
-    blocked = shapely.union_all([hull for p, (hull, low, _) in zip(placed, solids) if p.piece.support == "floor" and low < 1.8])
-    free = bare & ~shapely.contains_xy(blocked.buffer(0.25), gx, gy)
+    """On the grid of navigation a body of 0.25 m radius reaches every door from every other, and no part of the floor is closed
+    off to it: what it cannot reach is less than half a square metre of places for its middle, and 5 % of them."""
+    low = np.array(site.polygon.bounds[:2])
+    columns, rows = (int(n) for n in np.ceil((np.array(site.polygon.bounds[2:]) - low) / NAVIGATION.cell))
+    walkable = site.polygon.buffer(-NAVIGATION.body_radius)
+    in_the_way = [hull for p, (hull, low, _) in zip(placed, solids) if p.piece.support == "floor" and low < 1.8]
+    blocked = shapely.union_all(in_the_way).buffer(NAVIGATION.body_radius)
+    bare, free = (
+        cells_inside(area, low, NAVIGATION.cell, (rows, columns)) for area in (walkable, walkable.difference(blocked))
+    )
     labels, _ = ndimage.label(free)
     sizes = np.bincount(labels.ravel())[1:]
     if not len(sizes) or ndimage.label(bare)[1] > 1:
         return
     main = int(np.argmax(sizes)) + 1
-    assert sizes.max() >= 0.85 * sizes.sum()
-    for x, y in site.probes:
-        near = (np.abs(gx - x) < 0.2) & (np.abs(gy - y) < 0.2)
+    closed = int(sizes.sum() - sizes.max())
+    assert closed <= 0.05 * sizes.sum() and closed * NAVIGATION.cell**2 < 0.5
+    centres = low + NAVIGATION.cell * (np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), -1) + 0.5)
+    for probe in site.probes:
+        near = np.abs(centres - probe).max(axis=-1) < 0.2
         assert not bare[near].any() or (labels[near] == main).any(), "a door is blocked"
 
 

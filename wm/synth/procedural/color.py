@@ -29,3 +29,14 @@ def tone(radiance: Float[np.ndarray, "..."], *, exposure: float = 1.0) -> Float[
     knee = 0.5
     above = knee + (1 - knee) * -np.expm1(-(np.maximum(x, knee) - knee) / (1 - knee))
     return to_srgb(np.where(x <= knee, x, above).astype(np.float32))
+
+
+def adapted(light: Float[np.ndarray, "n 3"], mean: Float[np.ndarray, "3"], share: float) -> Float[np.ndarray, "n 3"]:
+    """Linear light as an eye sees it that is used to its mean: as bright as before, the mean's cast to the power 1 - share.
+
+    Source: von Kries adaptation, on the Rec. 709 primaries instead of the cones.
+    """
+    brightness = float(mean @ LUMINANCE)
+    cast = np.maximum(mean / max(brightness, 1e-6), 1e-2) ** share
+    gain = brightness / max(float((mean / cast) @ LUMINANCE), 1e-6)
+    return (light * (gain / cast)).astype(light.dtype)

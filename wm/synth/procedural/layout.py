@@ -1,8 +1,8 @@
 """A room while it is being furnished: what stands where, and whether one more piece may stand there too.
 
 A piece may stand where its footprint lies inside the room, clear of the zones before doors, of every piece whose height
-interval it shares, and of what other pieces need before them; and only if afterwards a body of 0.25 m radius still gets
-from every door to every other and to nearly all of the free floor (0.1 m grid), and no pocket of floor is walled in.
+interval it shares, and of what other pieces need before them; and only if afterwards a person still gets from every door to
+every other and to nearly all of the free floor (0.1 m grid), and no pocket of floor is walled in.
 """
 
 import dataclasses
@@ -15,7 +15,11 @@ from scipy import ndimage
 from wm.geometry.site import Site, rectangle, wall_yaw
 from wm.synth.procedural.furniture import Piece
 
-BODY = 0.25
+BODY = 0.33
+"""Metres around the middle of a way: 0.66 m is what a person leaves open. It is also half a cell of the grid of navigation
+(0.15 m) more than the radius of its body (0.25 m), so that along a way that grid has a row of cells."""
+SLIM, STEP_ASIDE = 0.25, 0.2
+"""That radius, and how far from a way such a body still counts as standing at it, metres."""
 CELL = 0.1
 CLEARANCE = 0.015
 """Metres between two pieces, and between a piece and a wall."""
@@ -23,8 +27,10 @@ LIFT = 0.002
 """Metres by which things stay off the surface they stand on, so that no two faces share a plane."""
 HEADROOM = 1.9
 """Metres below which a hanging or standing thing is in a body's way."""
-REACHABLE = 0.9
-"""Share of the floor on which a body could stand that it must be able to reach."""
+REACHABLE = 0.97
+"""Share of the ways that must hang together."""
+BESIDE = 0.96
+"""Share of the places where a slim body could stand that must lie at them: the rest is closed off."""
 JOINED = 0.97
 """Share of the open floor that must hang together."""
 
@@ -64,11 +70,13 @@ class Layout:
         self.grid = np.stack(np.meshgrid(xs, ys), -1)  # [gy, gx, 2]
         self.inside = shapely.contains_xy(site.polygon, self.grid[..., 0], self.grid[..., 1])
         self.standing = shapely.contains_xy(site.polygon.buffer(-BODY), self.grid[..., 0], self.grid[..., 1])
+        self.slim = shapely.contains_xy(site.polygon.buffer(-SLIM), self.grid[..., 0], self.grid[..., 1])
         self.room = site.polygon.buffer(-0.001)
         shapely.prepare(self.room)
         self.empty = self.standing  # where a body may stand in the bare room
         self.reach = min(REACHABLE, self.shares(self.standing).max(initial=0.0) - 1e-9)
         self.joined = min(JOINED, self.shares(self.inside).max(initial=0.0) - 1e-9)
+        self.beside = min(BESIDE, self.share_beside(self.standing, self.slim) - 1e-9)
 
     def try_at(
         self,
@@ -108,20 +116,20 @@ class Layout:
         if masks is not None and not self.passable(*masks):
             return None
         if masks is not None:
-            self.standing, self.inside = masks
+            self.standing, self.slim, self.inside = masks
         if zone is not None:
             self.reserved.append((zone, mates))
         placed = Placed(piece, x, y, z, yaw, footprint)
         self.placed.append(placed)
         return placed
 
-    def mark(self) -> tuple[int, int, np.ndarray, np.ndarray]:
+    def mark(self) -> tuple[int, int, np.ndarray, np.ndarray, np.ndarray]:
         """The state now, for `back_to`."""
-        return len(self.placed), len(self.reserved), self.standing, self.inside
+        return len(self.placed), len(self.reserved), self.standing, self.slim, self.inside
 
-    def back_to(self, mark: tuple[int, int, np.ndarray, np.ndarray]) -> None:
+    def back_to(self, mark: tuple[int, int, np.ndarray, np.ndarray, np.ndarray]) -> None:
         """Takes away everything placed since the mark."""
-        placed, reserved, self.standing, self.inside = mark
+        placed, reserved, self.standing, self.slim, self.inside = mark
         del self.placed[placed:], self.reserved[reserved:]
 
     def emptiest(self) -> tuple[float, float, float]:
@@ -142,22 +150,23 @@ class Layout:
             for other in self.placed
         )
 
-    def masks(self, footprint: shapely.Polygon) -> tuple[np.ndarray, np.ndarray]:
-        """(where a body may stand, open floor) with one more piece on the floor."""
-        wide = footprint.buffer(BODY)
-        shapely.prepare(wide)
-        x0, y0, x1, y1 = wide.bounds
+    def masks(self, footprint: shapely.Polygon) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(ways, where a slim body may stand, open floor) with one more piece on the floor."""
+        x0, y0, x1, y1 = footprint.buffer(BODY).bounds
         rows = slice(*np.searchsorted(self.grid[:, 0, 1], [y0, y1]))
         columns = slice(*np.searchsorted(self.grid[0, :, 0], [x0, x1]))
         near = self.grid[rows, columns]
-        standing, inside = self.standing.copy(), self.inside.copy()
-        standing[rows, columns] &= ~shapely.contains_xy(wide, near[..., 0], near[..., 1])
-        inside[rows, columns] &= ~shapely.contains_xy(footprint, near[..., 0], near[..., 1])
-        return standing, inside
+        with_it = []
+        for mask, radius in ((self.standing, BODY), (self.slim, SLIM), (self.inside, 0.0)):
+            taken = footprint.buffer(radius) if radius else footprint
+            shapely.prepare(taken)
+            with_it.append(mask.copy())
+            with_it[-1][rows, columns] &= ~shapely.contains_xy(taken, near[..., 0], near[..., 1])
+        return with_it[0], with_it[1], with_it[2]
 
-    def passable(self, standing: np.ndarray, inside: np.ndarray) -> bool:
-        """Whether every door reaches every other and nearly all of the floor is one."""
-        if not standing.any() or self.shares(inside).max() < self.joined:
+    def passable(self, standing: np.ndarray, slim: np.ndarray, inside: np.ndarray) -> bool:
+        """Whether every door reaches every other, nearly all of the floor is one, and nothing of it is closed off."""
+        if not standing.any() or self.shares(inside).max() < self.joined or self.share_beside(standing, slim) < self.beside:
             return False
         labels, _ = parts_of(standing)
         sizes = np.bincount(labels.ravel())[1:]
@@ -169,6 +178,16 @@ class Layout:
             if self.empty[near].any() and not (labels[near] == main).any():
                 return False
         return True
+
+    @staticmethod
+    def share_beside(standing: np.ndarray, slim: np.ndarray) -> float:
+        """Share of the places of a slim body that lie at the largest connected part of the ways."""
+        labels, count = parts_of(standing)
+        if not count:
+            return 0.0
+        main = labels == 1 + int(np.argmax(np.bincount(labels.ravel())[1:]))
+        reached = ndimage.binary_dilation(main, iterations=round(STEP_ASIDE / CELL), mask=slim)
+        return float(reached[slim].mean())
 
     @staticmethod
     def shares(free: np.ndarray) -> np.ndarray:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from wm.geometry.raycast import RayScene
-from wm.synth.procedural.color import LUMINANCE
+from wm.synth.procedural.color import LUMINANCE, adapted
 from wm.synth.procedural.light.environment import environment
 from wm.synth.procedural.light.luxels import LightPoints, filled, smooth
 from wm.synth.procedural.light.sources import Emitter
@@ -26,6 +26,10 @@ BURIED = 0.5
 BRIGHT, RANGE = 1.7, 1.7
 """In multiples of a room's target: e above which light is compressed, and how far beyond it ends. What an eye does that looks at
 the wall behind a lamp and at the room in one glance."""
+
+ADAPTED = 0.5
+"""How far an eye takes the colour of a room's light for white: walls that warm each other at every bounce dye a room in the end
+as no visitor would see it, and a room that keeps none of its cast has no mood."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -94,7 +98,7 @@ def bake(
     target = float(np.clip(sources.mood * settings.target / mean_albedo, 0.36, 0.62))
     factors = np.repeat(_balance(points, field, sources, target), 3)
     total = (field * factors).reshape(-1, 3, 3).sum(axis=1) + np.float32(settings.ambient * target)
-    total = _compressed(total, BRIGHT * target, RANGE * target)
+    total = _compressed(adapted(total, _mean(total, live), ADAPTED), BRIGHT * target, RANGE * target)
     radiance = points.albedo * total + points.glow
     table = np.concatenate([radiance, _mean(radiance, points.live)[None]])
     bend, mirror = np.zeros((2, len(points.live), 3), np.float32)
