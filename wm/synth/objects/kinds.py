@@ -20,6 +20,7 @@ _OTHER_WORDS = {
     "stand": "media bench", "island": "kitchen island", "counter": "kitchen counter", "sculpture": "statue",
 }  # fmt: skip
 """What the last word of a label means where no kind is called so."""
+_KIND_BY_WORDS = {tuple(words_of(kind)): kind for kind in KINDS}
 ANYTHING = "chest"
 """The template of a label that says nothing: a box with a lid."""
 
@@ -37,11 +38,10 @@ class Template:
 
 def kind_of(label: str) -> str:
     """The furniture kind that a label names, by whole words: a key of KINDS."""
-    known = {tuple(words_of(kind)): kind for kind in KINDS}
     words = tuple(words_of(label))
     for start in range(len(words)):
-        if words[start:] in known:
-            return known[words[start:]]
+        if words[start:] in _KIND_BY_WORDS:
+            return _KIND_BY_WORDS[words[start:]]
     return _OTHER_WORDS.get(words[-1], ANYTHING) if words else ANYTHING
 
 
