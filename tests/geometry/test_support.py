@@ -9,7 +9,7 @@ from wm.synth.procedural.furniture import KINDS
 
 SIZE = (1.0, 1.0, 1.0)
 kinds = st.sampled_from(sorted(KINDS))
-adjectives = st.lists(st.sampled_from(("large", "indoor", "old", "Persian", "carved", "outdoor", "stained-glass", "two")), max_size=3)
+adjectives = st.lists(st.sampled_from(("large", "indoor", "old", "Persian", "outdoor", "stained-glass")), max_size=3)
 structures = st.sampled_from(("wall", "floor", "ceiling", "door", "doorway", "window", "archway", "passage", "baseboard", "room"))
 letters = st.text("abcdefghijklmnopqrstuvwxyz", min_size=1, max_size=4)
 
@@ -29,7 +29,7 @@ def test_the_last_word_makes_a_part_of_the_building(before, noun, several):
 @given(structures, letters, letters, st.sampled_from(("plant", "lamp", "stand", "sofa")))
 def test_a_word_inside_a_word_is_no_word(noun, head, tail, thing):
     for inside in (head + noun, noun + tail, head + noun + tail):
-        assume(words_of(inside)[0] not in map(lambda word: words_of(word)[0], (noun, "doorway", "floor", "wall")))
+        assume(words_of(inside)[0] not in (noun, "floor", "wall", "doorway", "standing", "mounted"))
         assert not is_structure(f"{inside} {thing}")
         assert support_of(f"{inside} {thing}", SIZE) == support_of(thing, SIZE)
 

@@ -67,10 +67,8 @@ def rectangle(y0, y1, x0, x1):
 FLAT = np.full((60, 80), 3.0, np.float32)
 
 
-SOME = st.lists(
-    st.tuples(st.sampled_from(("sofa", "bed", "pillow", "curtains", "wooden door")), *[st.integers(0, 59)] * 2, *[st.integers(0, 79)] * 2),
-    max_size=8,
-)
+LABELLED = st.sampled_from(("sofa", "bed", "pillow", "curtains", "wooden door"))
+SOME = st.lists(st.tuples(LABELLED, *[st.integers(0, 59)] * 2, *[st.integers(0, 79)] * 2), max_size=8)
 
 
 @given(SOME, st.integers(0, 2), st.floats(0, 0.05), st.permutations(range(8)))

@@ -30,6 +30,7 @@ class Template:
     """A kind of furniture at its middle size, and the sizes that it is usually built in."""
 
     kind: str
+    style: Style
     support: str  # floor | flat | wall | ceiling | object
     piece: Piece
     low: np.ndarray  # [3] metres
@@ -50,6 +51,13 @@ def largest_size(kind: str) -> Float[np.ndarray, "3"]:
     return np.array(KINDS[kind].high)
 
 
+def rebuilt(template: Template, size: Float[np.ndarray, "3"]) -> Piece:
+    """A template's piece built at another size, and not stretched to it: legs stay as thick, and cushions as round."""
+    entry = KINDS[template.kind]
+    within = np.clip(size, 0.8 * np.array(entry.low), 1.25 * np.array(entry.high))
+    return make_piece(template.kind, template.style, np.random.default_rng(0), size=_size(within))
+
+
 @functools.lru_cache(maxsize=512)
 def template_of(kind: str, style: Style) -> Template:
     """A kind's template in a style."""
@@ -57,7 +65,7 @@ def template_of(kind: str, style: Style) -> Template:
     low, high = np.array(entry.low), np.array(entry.high)
     pieces = [make_piece(kind, style, np.random.default_rng(0), size=_size(at)) for at in (low, (low + high) / 2, high)]
     sizes = np.stack([piece.size for piece in pieces])
-    return Template(kind=kind, support=entry.support, piece=pieces[1], low=sizes.min(axis=0), high=sizes.max(axis=0))
+    return Template(kind=kind, style=style, support=entry.support, piece=pieces[1], low=sizes.min(axis=0), high=sizes.max(axis=0))
 
 
 def _size(size: np.ndarray) -> tuple[float, float, float]:

@@ -15,9 +15,9 @@ from wm.geometry.upright import transformed
 from wm.geometry.upright_box import UprightBox
 from wm.synth.backends import Reconstruction, Sighting
 from wm.synth.objects.coloring import slot_colors
-from wm.synth.objects.kinds import Template, kind_of, template_of
-from wm.synth.objects.sightings import sighting_points, trimmed
-from wm.synth.objects.template_cost import evidence_of, seen_distances
+from wm.synth.objects.kinds import Template, kind_of, largest_size, template_of
+from wm.synth.objects.sightings import near_together, sighting_points, trimmed
+from wm.synth.objects.template_cost import evidence_of
 from wm.synth.objects.template_fit import fit_template
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture import make_piece
@@ -45,11 +45,13 @@ class TemplateReconstruction:
         """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen, or none fits."""
         share = _POINTS // len(sightings)
         points = np.concatenate([trimmed(sighting_points(s, limit=share, seed=seed)) for s in sightings])
+        points = near_together(points, largest_size(kind_of(label)))
         if len(points) < _LEAST:
             return None
         template = template_of(kind_of(label), self.style)
         evidence = evidence_of(template, points, sightings, site)
-        box = fit_template(evidence)
+        fit = fit_template(evidence)
+        box = fit.box
         if not _plausible(box, template, site):
             return None
         thing = built(label, template, box, self.style, room, seed=seed)
@@ -58,7 +60,7 @@ class TemplateReconstruction:
             thing=transformed(dataclasses.replace(thing, slot_colors=colors), np.asarray(sightings[0].camera.T_cam_world)),
             seen=seen,
             usual=thing.slot_colors,
-            residual=float(np.median(seen_distances(box, evidence))),
+            residual=fit.residual,
         )
 
 
