@@ -24,6 +24,9 @@ _KIND_BY_WORDS = {tuple(words_of(kind)): kind for kind in KINDS}
 ANYTHING = "chest"
 """The template of a label that says nothing: a box with a lid."""
 
+_BEYOND = 0.25
+"""Share of its range by which a kind is built smaller or larger than usual."""
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Template:
@@ -51,11 +54,17 @@ def largest_size(kind: str) -> Float[np.ndarray, "3"]:
     return np.array(KINDS[kind].high)
 
 
-def rebuilt(template: Template, size: Float[np.ndarray, "3"]) -> Piece:
-    """A template's piece built at another size, and not stretched to it: legs stay as thick, and cushions as round."""
-    entry = KINDS[template.kind]
-    within = np.clip(size, 0.8 * np.array(entry.low), 1.25 * np.array(entry.high))
-    return make_piece(template.kind, template.style, np.random.default_rng(0), size=_size(within))
+def rebuilt(template: Template, size: Float[np.ndarray, "3"], rng: np.random.Generator | None = None) -> Piece:
+    """A template's piece built anew for about this size, and not stretched to it: legs stay as thick, and cushions as round.
+
+    Pieces are built to nominal sizes, which legs that splay and taps go beyond: size and nominal size lie at the same share of
+    their ranges.
+    """
+    entry, span = KINDS[template.kind], template.high - template.low
+    share = np.where(span > 1e-6, (size - template.low) / np.where(span > 1e-6, span, 1.0), 0.5)
+    low, high = np.array(entry.low), np.array(entry.high)
+    nominal = low + np.clip(share, -_BEYOND, 1 + _BEYOND) * (high - low)
+    return make_piece(template.kind, template.style, rng or np.random.default_rng(0), size=_size(nominal))
 
 
 @functools.lru_cache(maxsize=512)

@@ -29,8 +29,8 @@ from wm.synth.objects.template_surface import surface_of
 _LIFT = 0.002
 _ANCHORS = ((False, False), (False, True), (True, False), (True, True))
 _SAME_YAW = math.radians(6.0)
-_TRIED, _TRIES, _STEPS = 6, 5, 12
-"""Guesses that are refined, by how many steps, and by how many the best of them."""
+_TRIED, _OF_A_YAW, _TRIES, _STEPS = 8, 2, 6, 12
+"""Guesses that are refined, how many of them share a yaw, by how many steps, and by how many the best of them."""
 _RANKED = 80
 """Points by which guesses are ranked."""
 _DIFFERENCE = 1e-3
@@ -60,15 +60,21 @@ class Fit:
 
 def fit_template(evidence: Evidence) -> Fit:
     """The box that the template fills best."""
+    boxes, costs = _refined(_best_guesses(evidence), evidence, _TRIES)
+    best = boxes[[int(np.argmin(costs))]]
+    anew = dataclasses.replace(evidence, surface=surface_of(rebuilt(evidence.template, best[0, 4:])))
+    ends = [(*_refined(best, way, _STEPS), way) for way in (evidence, anew)]
+    boxes, _, way = min(ends, key=lambda end: float(end[1][0]))
+    return Fit(UprightBox(*boxes[0].tolist()), float(np.median(seen_distances(boxes, way, nearest(boxes, way)))))
+
+
+def _best_guesses(evidence: Evidence) -> np.ndarray:
+    """[b, 7] the guesses worth refining, the best first, not too many of one yaw: quarter turns are told apart last."""
     guesses = np.stack([_row(box) for box in _guesses(evidence)])
     few = dataclasses.replace(evidence, points=evidence.points[:: max(len(evidence.points) // _RANKED, 1)])
-    tried = guesses[np.argsort(cost(guesses, few), kind="stable")[:_TRIED]]
-    boxes, costs = _refined(tried, evidence, _TRIES)
-    best = boxes[int(np.argmin(costs))]
-    own = dataclasses.replace(evidence, surface=surface_of(rebuilt(evidence.template, best[4:])))
-    boxes, _ = _refined(best[None], own, _STEPS)
-    distances = seen_distances(boxes, own, nearest(boxes, own))
-    return Fit(box=UprightBox(*boxes[0].tolist()), residual=float(np.median(distances)))
+    ranked = guesses[np.argsort(cost(guesses, few), kind="stable")]
+    kept = [k for k, row in enumerate(ranked) if (ranked[:k, 3] == row[3]).sum() < _OF_A_YAW]
+    return ranked[kept[:_TRIED]]
 
 
 def _row(box: UprightBox) -> np.ndarray:
