@@ -69,9 +69,9 @@ def context_of(scene: str, seed: int) -> SceneContext:
     return SceneContext(theme=config.scene.theme, seed=seed, plan=proposal.plan, structure=structure, objects=())
 
 
-def contexts(scenes: list[str], rooms: int) -> Iterator[tuple[str, SceneContext]]:
-    """Whole scenes with at least so many rooms in all: every scene at seed 0, then at seed 1, and so on."""
-    given, seed = 0, 0
+def contexts(scenes: list[str], rooms: int, seed: int) -> Iterator[tuple[str, SceneContext]]:
+    """Whole scenes with at least so many rooms in all: every scene at the first seed, then at the next, and so on."""
+    given = 0
     while given < rooms:
         for scene in scenes:
             if given < rooms:
@@ -93,11 +93,11 @@ def lifted(backend: LiftedObjects, context: SceneContext) -> Iterator[LiftedRoom
         yield lift_room(context, room, cameras, models, config)
 
 
-def lifted_rooms(scenes: list[str], count: int, config: ObjectsConfig) -> tuple[list[Match], Tally]:
+def lifted_rooms(scenes: list[str], count: int, seed: int, config: ObjectsConfig) -> tuple[list[Match], Tally]:
     """(every true thing, the tally) of seeded rooms that went through the whole chain."""
     rows: list[Match] = []
     tally = Tally("lifted")
-    for scene, context in contexts(scenes, count):
+    for scene, context in contexts(scenes, count, seed):
         backend, everything = LiftedObjects(config), []
         for room, result in enumerate(lifted(backend, context)):
             found = matches(scene, context, room, backend.imagined(context, 1.0), result)
@@ -112,10 +112,10 @@ def lifted_rooms(scenes: list[str], count: int, config: ObjectsConfig) -> tuple[
     return rows, tally
 
 
-def shaken_rooms(scenes: list[str], count: int, config: ObjectsConfig) -> Tally:
+def shaken_rooms(scenes: list[str], count: int, seed: int, config: ObjectsConfig) -> Tally:
     """Seeded rooms whose furniture was shaken and placed."""
     tally, generator = Tally("shaken"), ProceduralObjects(config)
-    for _, context in contexts(scenes, count):
+    for _, context in contexts(scenes, count, seed):
         everything = []
         for room in range(len(context.plan.rooms)):
             site = room_site(context.plan, room)
@@ -133,6 +133,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--lifted", type=int, default=200, help="rooms through the whole chain, at least; 30: the five at seed 0")
     parser.add_argument("--rooms", type=int, default=200, help="rooms whose furniture is shaken and placed, at least")
+    parser.add_argument("--seed", type=int, default=0, help="the first")
     parser.add_argument("--width", type=int, default=ObjectsConfig().image_width, help="of the images that rooms are lifted from")
     parser.add_argument("--scenes", nargs="*", default=options("scene"))
     parser.add_argument("--out", type=Path, default=HERE)
@@ -141,12 +142,12 @@ def main() -> None:
     config = ObjectsConfig(name="lifted", image_width=width, image_height=width * 3 // 4)
     laws = []
     if arguments.lifted:
-        rows, tally = lifted_rooms(scenes, arguments.lifted, config)
+        rows, tally = lifted_rooms(scenes, arguments.lifted, arguments.seed, config)
         laws.append(tally.row())
         _write(arguments.out / "result.csv", _table(rows))
         _write(arguments.out / "kinds.csv", _by_kind(rows))
     if arguments.rooms:
-        laws.append(shaken_rooms(scenes, arguments.rooms, config).row())
+        laws.append(shaken_rooms(scenes, arguments.rooms, arguments.seed, config).row())
     _write(arguments.out / "laws.csv", laws)
 
 
