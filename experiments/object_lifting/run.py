@@ -1,53 +1,63 @@
 """How far reconstructed furniture is from the truth, over the scenes of conf/scene; and whether placed rooms obey the laws.
 
-python experiments/object_lifting/run.py --lifted 30 --rooms 200
+python experiments/object_lifting/run.py --lifted 200 --rooms 200
 """
 
 import argparse
 import csv
 import dataclasses
+from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
+from matching import SEEN, Match, matches, summary
+from shaking import shaken
+from sketch import sketch_of
 
-from wm.geometry import build_structure
+from wm.geometry import build_structure, navigability
 from wm.geometry.placement import place_objects
 from wm.geometry.placement_laws import violations
 from wm.geometry.site import room_site
-from wm.geometry.upright import levelled, transformed, turn_between
-from wm.geometry.upright_box import UprightBox, box_iou, box_of
+from wm.geometry.views import bootstrap_cameras
 from wm.run import load_config, options
+from wm.schema import CameraSettings, ObjectsConfig
 from wm.synth.backends import SceneContext, make_backend
 from wm.synth.language.propose import propose_plan
-from wm.synth.objects.lifted import LiftedObjects, LiftedRoom
+from wm.synth.objects.lifted import LiftedObjects, LiftedRoom, lift_room
 from wm.synth.objects.procedural import ProceduralObjects
 from wm.types import SceneObject
 
 HERE = Path(__file__).parent
-FOUND = 0.25
-"""Intersection over union from which a thing counts as found."""
-SEEN = 300
-"""Pixels from which a thing counts as seen in an image."""
-_ROUND = ("lamp", "candelabra", "candle", "vase", "bowl", "plant", "flowers", "chandelier", "globe", "column", "stool", "statue",
-          "round", "basket", "mushroom", "chess", "side table", "rug", "mat")  # fmt: skip
-"""Words of what looks alike from several sides, or whose sides are of no kind: its yaw says nothing."""
+LAWS = ("interpenetrates", "floats", "leaves", "tilts", "blocks")
 
 
-@dataclasses.dataclass(frozen=True)
-class Match:
-    """One true thing and what became of it."""
+@dataclasses.dataclass
+class Tally:
+    """Rooms of one sort, and what was wrong with them."""
 
-    scene: str
-    seed: int
-    room: str
-    label: str
-    support: str
-    pixels: int  # in the image that shows most of it
-    iou: float  # of the reconstruction; 0 where there is none
-    iou_placed: float
-    center_m: float  # NaN where there is no reconstruction
-    yaw_deg: float  # NaN too where the thing is round
+    furniture: str
+    objects: list[int] = dataclasses.field(default_factory=list)  # in each room
+    walk: list[float] = dataclasses.field(default_factory=list)  # navigability of each plan whose rooms are all here
+    broken: Counter = dataclasses.field(default_factory=Counter)
+    broken_before: int = 0  # placing
+    dropped: int = 0
+    unmatched: int = 0
+
+    def judge(self, context: SceneContext, room: int, things: list[SceneObject]) -> None:
+        """Counts a placed room, and says which laws it breaks."""
+        self.objects.append(len(things))
+        for law in violations(things, room_site(context.plan, room)):
+            self.broken[law.law] += 1
+            print("BROKEN", context.theme, context.seed, context.plan.rooms[room].name, law.law, law.what, flush=True)
+
+    def row(self) -> dict:
+        return {
+            "furniture": self.furniture, "rooms": len(self.objects), "objects_a_room": round(float(np.mean(self.objects)), 1),
+            "fewest": min(self.objects), "broken_before": self.broken_before, **{law: self.broken[law] for law in LAWS},
+            "left_out": self.dropped, "unmatched": self.unmatched, "plans": len(self.walk),
+            "navigability_mean": round(float(np.mean(self.walk)), 4), "navigability_least": round(min(self.walk), 4),
+        }  # fmt: skip
 
 
 def context_of(scene: str, seed: int) -> SceneContext:
@@ -59,171 +69,99 @@ def context_of(scene: str, seed: int) -> SceneContext:
     return SceneContext(theme=config.scene.theme, seed=seed, plan=proposal.plan, structure=structure, objects=())
 
 
-def matches(name: str, context: SceneContext, room: int, backend: LiftedObjects, lifted: LiftedRoom) -> list[Match]:
-    """Every true thing of a room against its reconstruction: one to one, of one label, for the largest sum of overlaps."""
-    imagined = backend.imagined(context, 1.0).objects
-    mine = [k for k, thing in enumerate(imagined) if thing.room == room]
-    made = [levelled(thing) for thing in lifted.things]
-    gain = np.array([[_gain(imagined[k], thing) for thing in made] for k in mine]).reshape(len(mine), len(made))
-    partner = {i: j for i, j in zip(*linear_sum_assignment(-gain)) if gain[i, j] > 0}
-    placed = dict(zip(lifted.placement.source, lifted.placement.objects))
-    rows = []
-    for i, k in enumerate(mine):
-        thing, j = imagined[k], partner.get(i)
-        pixels = max((int((drawing.result.drawn_object == k).sum()) for drawing in lifted.drawings), default=0)
-        row = Match(name, context.seed, context.plan.rooms[room].name, thing.label, thing.support, pixels, 0, 0, np.nan, np.nan)
-        if j is not None:
-            row = dataclasses.replace(row, **_errors(box_of(thing), box_of(made[j]), thing.label))
-            row = dataclasses.replace(row, iou_placed=box_iou(box_of(thing), box_of(placed[j])) if j in placed else 0.0)
-        rows.append(row)
-    return rows
-
-
-def _gain(truth: SceneObject, made: SceneObject) -> float:
-    if truth.label != made.label:
-        return 0.0
-    a, b = box_of(truth), box_of(made)
-    distance = float(np.linalg.norm(a.center - b.center))
-    return box_iou(a, b) + (1e-3 / (1 + distance) if distance < 1.0 else 0.0)
-
-
-def _errors(truth: UprightBox, made: UprightBox, label: str) -> dict[str, float]:
-    center = np.array([truth.x - made.x, truth.y - made.y, truth.z + truth.height / 2 - made.z - made.height / 2])
-    turn = np.nan if any(word in label for word in _ROUND) else abs(np.degrees(turn_between(truth.yaw, made.yaw)))
-    return {"iou": box_iou(truth, made), "center_m": float(np.linalg.norm(center)), "yaw_deg": float(turn)}
-
-
-def summary(rows: list[Match]) -> dict[str, float]:
-    """One row of the table."""
-    seen = [row for row in rows if row.pixels >= SEEN]
-    found = [row for row in seen if row.iou >= FOUND]
-    yaws = np.array([row.yaw_deg for row in found if np.isfinite(row.yaw_deg)])
-    return {
-        "things": len(rows),
-        "seen": round(len(seen) / max(len(rows), 1), 3),
-        "recall_seen": round(len(found) / max(len(seen), 1), 3),
-        "recall_all": round(sum(row.iou >= FOUND for row in rows) / max(len(rows), 1), 3),
-        "iou_mean": round(float(np.mean([row.iou for row in seen])), 3),
-        "iou_median": round(float(np.median([row.iou for row in seen])), 3),
-        "iou_placed_mean": round(float(np.mean([row.iou_placed for row in seen])), 3),
-        "center_cm_median": round(100 * float(np.nanmedian([row.center_m for row in seen])), 1),
-        "yaw_within_10": round(float((yaws < 10).mean()), 3),
-        "yaw_within_10_or_flipped": round(float((np.minimum(yaws, 180 - yaws) < 10).mean()), 3),
-    }
-
-
-def rooms_of(scenes: list[str], count: int):
-    """(scene, context, room) of seeded rooms: every room of every scene at seed 0, then at seed 1, and so on."""
-    seed, given = 0, 0
-    while given < count:
+def contexts(scenes: list[str], rooms: int, seed: int) -> Iterator[tuple[str, SceneContext]]:
+    """Whole scenes with at least so many rooms in all: every scene at the first seed, then at the next, and so on."""
+    given = 0
+    while given < rooms:
         for scene in scenes:
-            context = context_of(scene, seed)
-            for room in range(len(context.plan.rooms)):
-                if given < count:
-                    given += 1
-                    yield scene, context, room
+            if given < rooms:
+                context = context_of(scene, seed)
+                given += len(context.plan.rooms)
+                yield scene, context
         seed += 1
 
 
-def shaken(things: list[SceneObject], rng: np.random.Generator) -> list[SceneObject]:
-    """Furniture as a worse reconstruction than ours might give it: shifted, turned, tilted, scaled, some missing, some twice."""
-    out = []
-    for thing in things:
-        for _ in range(int(rng.choice([0, 1, 2], p=[0.1, 0.82, 0.08]))):
-            quarter = np.pi / 2 * int(rng.integers(1, 4)) if rng.random() < 0.08 else 0.0
-            turn = (
-                _rotation(2, rng.normal() * 0.1 + quarter) @ _rotation(0, rng.normal() * 0.05) @ _rotation(1, rng.normal() * 0.05)
-            )
-            middle = thing.vertices.mean(axis=0)
-            motion = np.eye(4)
-            motion[:3, :3] = turn * float(np.exp(rng.normal() * 0.1))
-            motion[:3, 3] = middle - motion[:3, :3] @ middle + rng.normal(size=3) * 0.1
-            moved = transformed(thing, motion)
-            frame = moved.T_world_object.copy()
-            frame[:3, :3] = turn @ thing.T_world_object[:3, :3]
-            out.append(dataclasses.replace(moved, T_world_object=frame))
-    return out
+def lifted(backend: LiftedObjects, context: SceneContext) -> Iterator[LiftedRoom]:
+    """Every room of a scene lifted from sketches of it."""
+    config = backend.config
+    imagined = backend.imagined(context, 1.0)
+    image = sketch_of(imagined)
+    models = backend.models(imagined, image=image)
+    settings = CameraSettings(width=config.image_width, height=config.image_height, fov=config.fov)
+    for room in range(len(context.plan.rooms)):
+        cameras = bootstrap_cameras(context.plan, image.scene, room, settings)
+        yield lift_room(context, room, cameras, models, config)
 
 
-def _rotation(axis: int, angle: float) -> np.ndarray:
-    a, b = [k for k in range(3) if k != axis]
-    turn = np.eye(3)
-    turn[[a, a, b, b], [a, b, a, b]] = [np.cos(angle), -np.sin(angle), np.sin(angle), np.cos(angle)]
-    return turn
-
-
-def lifted_rooms(scenes: list[str], count: int) -> tuple[list[Match], dict[str, float], list[tuple]]:
-    """(every true thing, totals, broken laws) of seeded rooms that went through the whole chain."""
+def lifted_rooms(scenes: list[str], count: int, seed: int, config: ObjectsConfig) -> tuple[list[Match], Tally]:
+    """(every true thing, the tally) of seeded rooms that went through the whole chain."""
     rows: list[Match] = []
-    broken, dropped, made, objects = [], 0, 0, []
-    backend, current = None, None
-    for scene, context, room in rooms_of(scenes, count):
-        if context is not current:
-            backend, current = (
-                make_backend("objects", load_config([f"+scene={scene}", "objects=lifted"]).objects, context),
-                context,
-            )
-        assert backend is not None
-        lifted = backend.lift(context, room)
-        rows += matches(scene, context, room, backend, lifted)
-        made += len(lifted.things)
-        dropped += len(lifted.placement.dropped)
-        objects.append(len(lifted.objects))
-        broken += _broken(scene, context, room, lifted.objects)
-        print(scene, context.seed, context.plan.rooms[room].name, len(lifted.objects), flush=True)
-    known = sum(np.isfinite(row.center_m) for row in rows)
-    totals = {"rooms": len(objects), "violations": len(broken), "dropped": dropped, "unmatched": int(made - known),
-              "objects_a_room": round(float(np.mean(objects)), 2)}  # fmt: skip
-    return rows, totals, broken
+    tally = Tally("lifted")
+    for scene, context in contexts(scenes, count, seed):
+        backend, everything = LiftedObjects(config), []
+        for room, result in enumerate(lifted(backend, context)):
+            found = matches(scene, context, room, backend.imagined(context, 1.0), result)
+            rows += found
+            tally.unmatched += len(result.things) - int(sum(np.isfinite(row.center_m) for row in found))
+            tally.dropped += len(result.placement.dropped)
+            tally.broken_before += len(violations(list(result.things), room_site(context.plan, room)))
+            tally.judge(context, room, result.objects)
+            everything += result.objects
+        tally.walk.append(navigability(context.plan, everything).share)
+        print(scene, context.seed, len(tally.objects), "rooms so far; navigability", round(tally.walk[-1], 4), flush=True)
+    return rows, tally
 
 
-def shaken_rooms(scenes: list[str], count: int) -> tuple[dict[str, float], list[tuple]]:
-    """(totals, broken laws) of seeded rooms whose furniture was shaken and placed."""
-    broken, dropped, before, objects = [], 0, 0, []
-    generator = ProceduralObjects(load_config([f"+scene={scenes[0]}"]).objects)
-    for scene, context, room in rooms_of(scenes, count):
-        rng = np.random.default_rng([context.seed, room, 7])
-        things = shaken(generator.furnish(context, room), rng)
-        placement = place_objects(things, room_site(context.plan, room))
-        before += len(_broken(scene, context, room, things))
-        dropped += len(placement.dropped)
-        objects.append(len(placement.objects))
-        broken += _broken(scene, context, room, list(placement.objects))
-    return {"rooms": len(objects), "violations_before": before, "violations": len(broken), "dropped": dropped,
-            "objects_a_room": round(float(np.mean(objects)), 2)}, broken  # fmt: skip
-
-
-def _broken(scene: str, context: SceneContext, room: int, things: list[SceneObject]) -> list[tuple]:
-    laws = violations(things, room_site(context.plan, room))
-    return [(scene, context.seed, context.plan.rooms[room].name, law.law, law.what) for law in laws]
+def shaken_rooms(scenes: list[str], count: int, seed: int, config: ObjectsConfig) -> Tally:
+    """Seeded rooms whose furniture was shaken and placed."""
+    tally, generator = Tally("shaken"), ProceduralObjects(config)
+    for _, context in contexts(scenes, count, seed):
+        everything = []
+        for room in range(len(context.plan.rooms)):
+            site = room_site(context.plan, room)
+            things = shaken(generator.furnish(context, room), np.random.default_rng([context.seed, room, 7]))
+            placement = place_objects(things, site)
+            tally.broken_before += len(violations(things, site))
+            tally.dropped += len(placement.dropped)
+            tally.judge(context, room, list(placement.objects))
+            everything += placement.objects
+        tally.walk.append(navigability(context.plan, everything).share)
+    return tally
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--lifted", type=int, default=30, help="rooms through the whole chain; 30: the five scenes at seed 0")
-    parser.add_argument("--rooms", type=int, default=200, help="rooms whose furniture is shaken and placed")
+    parser.add_argument("--lifted", type=int, default=200, help="rooms through the whole chain, at least; 30: the five at seed 0")
+    parser.add_argument("--rooms", type=int, default=200, help="rooms whose furniture is shaken and placed, at least")
+    parser.add_argument("--seed", type=int, default=0, help="the first")
+    parser.add_argument("--width", type=int, default=ObjectsConfig().image_width, help="of the images that rooms are lifted from")
     parser.add_argument("--scenes", nargs="*", default=options("scene"))
     parser.add_argument("--out", type=Path, default=HERE)
     arguments = parser.parse_args()
-    scenes = list(arguments.scenes)
-    laws, broken = [], []
+    scenes, width = list(arguments.scenes), arguments.width
+    config = ObjectsConfig(name="lifted", image_width=width, image_height=width * 3 // 4)
+    laws = []
     if arguments.lifted:
-        rows, totals, broken = lifted_rooms(scenes, arguments.lifted)
-        laws.append({"furniture": "lifted", "violations_before": "", **totals})
+        rows, tally = lifted_rooms(scenes, arguments.lifted, arguments.seed, config)
+        laws.append(tally.row())
         _write(arguments.out / "result.csv", _table(rows))
+        _write(arguments.out / "kinds.csv", _by_kind(rows))
     if arguments.rooms:
-        totals, more = shaken_rooms(scenes, arguments.rooms)
-        laws.append({"furniture": "shaken", "unmatched": "", **totals})
-        broken += more
+        laws.append(shaken_rooms(scenes, arguments.rooms, arguments.seed, config).row())
     _write(arguments.out / "laws.csv", laws)
-    for line in broken:
-        print(*line)
 
 
 def _table(rows: list[Match]) -> list[dict]:
     groups = {scene: [row for row in rows if row.scene == scene] for scene in dict.fromkeys(row.scene for row in rows)}
     groups |= {f"on {kind}": [row for row in rows if row.support == kind] for kind in sorted({row.support for row in rows})}
     return [{"group": name} | summary(group) for name, group in (groups | {"all": rows}).items()]
+
+
+def _by_kind(rows: list[Match]) -> list[dict]:
+    """Kinds of which at least three were seen, the worst first."""
+    kinds = {kind: [row for row in rows if row.label == kind and row.pixels >= SEEN] for kind in {row.label for row in rows}}
+    table = [{"kind": kind} | summary(group) for kind, group in sorted(kinds.items()) if len(group) >= 3]
+    return sorted(table, key=lambda row: row["iou_mean"])
 
 
 def _write(path: Path, table: list[dict]) -> None:

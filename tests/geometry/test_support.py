@@ -1,9 +1,44 @@
 """What labels say of how things are held."""
 
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 
-from wm.geometry.support import covers_windows, is_plural, is_structure, support_of
+from wm.geometry.support import covers_windows, is_plural, is_structure, support_of, words_of
 from wm.synth.procedural.furniture import KINDS
+
+SIZE = (1.0, 1.0, 1.0)
+kinds = st.sampled_from(sorted(KINDS))
+adjectives = st.lists(st.sampled_from(("large", "indoor", "old", "Persian", "outdoor", "stained-glass")), max_size=3)
+structures = st.sampled_from(("wall", "floor", "ceiling", "door", "doorway", "window", "archway", "passage", "baseboard", "room"))
+letters = st.text("abcdefghijklmnopqrstuvwxyz", min_size=1, max_size=4)
+
+
+@given(adjectives, kinds, st.booleans())
+def test_words_that_say_nothing_of_holding_change_nothing(before, kind, shout):
+    label = " ".join([*before, kind])
+    assert support_of(label.upper() if shout else label, KINDS[kind].high) == KINDS[kind].support
+    assert not is_structure(label)
+
+
+@given(adjectives, structures, st.booleans())
+def test_the_last_word_makes_a_part_of_the_building(before, noun, several):
+    assert is_structure(" ".join([*before, noun + "s" * several]))
+
+
+@given(structures, letters, letters, st.sampled_from(("plant", "lamp", "stand", "sofa")))
+def test_a_word_inside_a_word_is_no_word(noun, head, tail, thing):
+    for inside in (head + noun, noun + tail, head + noun + tail):
+        assume(words_of(inside)[0] not in (noun, "floor", "wall", "doorway", "standing", "mounted"))
+        assert not is_structure(f"{inside} {thing}")
+        assert support_of(f"{inside} {thing}", SIZE) == support_of(thing, SIZE)
+
+
+@given(st.text(max_size=30), st.tuples(*[st.floats(1e-3, 10)] * 3), st.floats(0, 3))
+def test_every_label_and_size_rests_on_something(label, size, low):
+    held = support_of(label, size, low)
+    assert held in ("floor", "flat", "wall", "ceiling", "object")
+    assert support_of(f"  {label.upper()} ", size, low) == support_of(label.upper(), size, low)
 
 
 @pytest.mark.parametrize("kind", KINDS)

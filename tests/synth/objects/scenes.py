@@ -49,7 +49,7 @@ def site() -> Site:
 
 def piece(kind: str, x: float, y: float, yaw: float, size: tuple[float, float, float], z: float = 0.002) -> SceneObject:
     """A piece of furniture that fills a box; its colours and cushions are of other dice than the reconstruction's."""
-    return built(kind, template_of(kind, STYLE), UprightBox(x, y, z, yaw, *size), STYLE, 0, seed=11)
+    return built(kind, template_of(kind, STYLE), UprightBox(x, y, z, yaw, *size), 0, seed=11)
 
 
 def cameras(width: int = 160, height: int = 120):

@@ -2,17 +2,32 @@
 
 import dataclasses
 import functools
+import math
 
 import numpy as np
 import pytest
 
-from tests.synth.objects.scenes import bare
+from tests.synth.objects.scenes import STYLE, bare, piece
+from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement_laws import violations
+from wm.geometry.raycast import build_ray_scene, cast
 from wm.geometry.site import room_site
 from wm.geometry.upright_box import box_iou, box_of
-from wm.schema import DepthConfig, ImageConfig, ObjectsConfig
-from wm.synth.backends import ImageDrivenBackend, make_backend
-from wm.synth.objects.lifted import sights
+from wm.geometry.views import bootstrap_cameras
+from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
+from wm.synth.backends import (
+    DepthBackend,
+    ImageBackend,
+    ImageDrivenBackend,
+    ImageRequest,
+    ImageResult,
+    Segment,
+    SegmentationBackend,
+    make_backend,
+)  # fmt: skip
+from wm.synth.objects.lifted import Models, lift_room, sights
+from wm.synth.objects.reconstruction import TemplateReconstruction
+from wm.types import OUTSIDE
 
 CONFIG = ObjectsConfig(name="lifted", image_width=240, image_height=180)
 COARSE = ImageConfig(texel_size=0.08)
@@ -31,6 +46,46 @@ def test_most_of_what_was_drawn_is_found_near_where_it_was_drawn():
     near = [max((box_iou(box_of(t), box_of(o)) for o in room.objects if o.label == t.label), default=0.0) for t in large]
     assert len(large) >= 3 and np.mean(np.array(near) > 0.3) >= 0.6
     assert {thing.room for thing in room.objects} == {1}
+
+
+@dataclasses.dataclass(frozen=True)
+class Photographs:
+    """Pictures of a room with the depth and the masks that models found in them, by the name of their view: nothing else of
+    what they show is known."""
+
+    things: list  # what was photographed
+    found: dict = dataclasses.field(default_factory=dict)  # id of an image -> (relative depth, segments)
+
+    def generate(self, request: ImageRequest) -> ImageResult:
+        scene = build_ray_scene(assemble_scene(bare().structure, self.things))
+        gbuffer = cast(scene, request.view.camera)
+        owner = np.append(scene.mesh.face_object, np.int32(OUTSIDE))[gbuffer.face]
+        rgb = np.full((*owner.shape, 3), 0.4, np.float32)
+        rgb[owner >= 0] = (0.5, 0.3, 0.2)
+        segments = [Segment(f"oak {thing.label}", owner == k) for k, thing in enumerate(self.things)]
+        self.found[id(rgb)] = (0.5 * gbuffer.depth + 0.1, segments)
+        return ImageResult(rgb=rgb)
+
+    def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
+        return self.found[id(result.rgb)][0]
+
+    def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
+        return self.found[id(result.rgb)][1]
+
+
+def test_photographs_with_depth_and_masks_are_lifted_without_knowing_what_was_drawn():
+    things = [piece("wardrobe", 2.4, 0.45, math.pi, (1.3, 0.6, 2.0)), piece("sofa", 2.4, 3.3, 0.0, (2.0, 0.9, 0.85))]
+    camera = Photographs(things)
+    assert isinstance(camera, ImageBackend) and isinstance(camera, DepthBackend) and isinstance(camera, SegmentationBackend)
+    models = Models(image=camera, depth=camera, segmentation=camera, reconstruction=TemplateReconstruction(STYLE))
+    structure = build_ray_scene(bare().structure)
+    views = bootstrap_cameras(bare().plan, structure, 0, CameraSettings(width=240, height=180, fov=90.0))
+    room = lift_room(bare(), 0, views, models, CONFIG)
+    assert all(drawing.result.drawn_object is drawing.result.drawn_depth is None for drawing in room.drawings)
+    assert sorted(thing.label for thing in room.objects) == ["oak sofa", "oak wardrobe"]
+    for truth in things:
+        made = next(thing for thing in room.objects if thing.label == f"oak {truth.label}")
+        assert box_iou(box_of(truth), box_of(made)) > 0.7
 
 
 def test_the_room_obeys_the_laws():

@@ -2,6 +2,9 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import ndimage
 
 from tests.synth.objects.scenes import piece, sightings, site
 from wm.geometry.upright_box import box_of
@@ -62,6 +65,30 @@ def rectangle(y0, y1, x0, x1):
 
 
 FLAT = np.full((60, 80), 3.0, np.float32)
+
+
+LABELLED = st.sampled_from(("sofa", "bed", "pillow", "curtains", "wooden door"))
+SOME = st.lists(st.tuples(LABELLED, *[st.integers(0, 59)] * 2, *[st.integers(0, 79)] * 2), max_size=8)
+
+
+@given(SOME, st.integers(0, 2), st.floats(0, 0.05), st.permutations(range(8)))
+def test_tidy_segments_share_no_pixel_and_tidying_twice_or_in_another_order_is_the_same(corners, blocks, min_area, order):
+    found = [Segment(label, rectangle(min(a, b), max(a, b) + 1, min(c, d), max(c, d) + 1)) for label, a, b, c, d in corners]
+    depth = FLAT.copy()
+    for k in range(blocks):  # something near, behind which a thing may go on
+        depth[:, 20 + 25 * k : 28 + 25 * k] = 1.5
+    tidy = tidy_segments(found, depth, min_area=min_area)
+    assert sum((segment.mask.astype(int) for segment in tidy), np.zeros(depth.shape, int)).max(initial=0) <= 1
+    for segment in tidy:
+        claimed = np.any([other.mask for other in found if other.label == segment.label], axis=0)
+        assert (segment.mask <= claimed).all() and segment.mask.sum() >= max(min_area * depth.size, 1)
+        assert segment.label != "wooden door"
+        if not blocks and segment.label != "curtains":  # nothing near: what does not hang together is not one thing
+            assert ndimage.label(segment.mask, np.ones((3, 3)))[1] == 1
+    shuffled = [found[k] for k in order if k < len(found)]
+    for again in (tidy_segments(tidy, depth, min_area=min_area), tidy_segments(shuffled, depth, min_area=min_area)):
+        assert [segment.label for segment in again] == [segment.label for segment in tidy]
+        assert all(np.array_equal(a.mask, b.mask) for a, b in zip(again, tidy))
 
 
 def test_small_ones_and_structure_go():

@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 
 from wm.geometry.camera import project_points
 from wm.synth.backends import Reconstruction, Sighting
-from wm.synth.objects.template_cost import surface_samples
+from wm.synth.objects.template_surface import surface_samples
 from wm.synth.procedural.color import to_linear, to_srgb
 from wm.types import SceneObject
 

@@ -20,8 +20,12 @@ _OTHER_WORDS = {
     "stand": "media bench", "island": "kitchen island", "counter": "kitchen counter", "sculpture": "statue",
 }  # fmt: skip
 """What the last word of a label means where no kind is called so."""
+_KIND_BY_WORDS = {tuple(words_of(kind)): kind for kind in KINDS}
 ANYTHING = "chest"
 """The template of a label that says nothing: a box with a lid."""
+
+_BEYOND = 0.25
+"""Share of its range by which a kind is built smaller or larger than usual."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -29,6 +33,7 @@ class Template:
     """A kind of furniture at its middle size, and the sizes that it is usually built in."""
 
     kind: str
+    style: Style
     support: str  # floor | flat | wall | ceiling | object
     piece: Piece
     low: np.ndarray  # [3] metres
@@ -37,17 +42,29 @@ class Template:
 
 def kind_of(label: str) -> str:
     """The furniture kind that a label names, by whole words: a key of KINDS."""
-    known = {tuple(words_of(kind)): kind for kind in KINDS}
     words = tuple(words_of(label))
     for start in range(len(words)):
-        if words[start:] in known:
-            return known[words[start:]]
+        if words[start:] in _KIND_BY_WORDS:
+            return _KIND_BY_WORDS[words[start:]]
     return _OTHER_WORDS.get(words[-1], ANYTHING) if words else ANYTHING
 
 
 def largest_size(kind: str) -> Float[np.ndarray, "3"]:
     """Width, depth and height, metres, of the largest of a kind."""
     return np.array(KINDS[kind].high)
+
+
+def rebuilt(template: Template, size: Float[np.ndarray, "3"], rng: np.random.Generator | None = None) -> Piece:
+    """A template's piece built anew for about this size, and not stretched to it: legs stay as thick, and cushions as round.
+
+    Pieces are built to nominal sizes, which legs that splay and taps go beyond: size and nominal size lie at the same share of
+    their ranges.
+    """
+    entry, span = KINDS[template.kind], template.high - template.low
+    share = np.where(span > 1e-6, (size - template.low) / np.where(span > 1e-6, span, 1.0), 0.5)
+    low, high = np.array(entry.low), np.array(entry.high)
+    nominal = low + np.clip(share, -_BEYOND, 1 + _BEYOND) * (high - low)
+    return make_piece(template.kind, template.style, rng or np.random.default_rng(0), size=_size(nominal))
 
 
 @functools.lru_cache(maxsize=512)
@@ -57,7 +74,7 @@ def template_of(kind: str, style: Style) -> Template:
     low, high = np.array(entry.low), np.array(entry.high)
     pieces = [make_piece(kind, style, np.random.default_rng(0), size=_size(at)) for at in (low, (low + high) / 2, high)]
     sizes = np.stack([piece.size for piece in pieces])
-    return Template(kind=kind, support=entry.support, piece=pieces[1], low=sizes.min(axis=0), high=sizes.max(axis=0))
+    return Template(kind=kind, style=style, support=entry.support, piece=pieces[1], low=sizes.min(axis=0), high=sizes.max(axis=0))
 
 
 def _size(size: np.ndarray) -> tuple[float, float, float]:

@@ -127,10 +127,10 @@ class LiftedObjects:
             self._scenes[density] = dataclasses.replace(context, objects=tuple(objects))
         return self._scenes[density]
 
-    def models(self, imagined: SceneContext) -> Models:
-        """The selected image and depth models, and the offline segmentation and reconstruction."""
+    def models(self, imagined: SceneContext, image: ImageBackend | None = None) -> Models:
+        """The selected image model, or the one given; the selected depth model; the offline segmentation and reconstruction."""
         return Models(
-            image=_image_model(self.image, imagined),
+            image=image if image is not None else _image_model(self.image, imagined),
             depth=make_backend("depth", self.depth, imagined),
             segmentation=DrawnSegmentation(self.config),
             reconstruction=TemplateReconstruction(style_of(imagined.theme)),

@@ -1,7 +1,11 @@
-"""The offline reconstruction: a template of the label's kind, fitted to the points that images show and coloured by them.
+"""Reconstruction by templates: a parametric piece of the label's kind, fitted to the points that images show, in their colours.
 
-It sees masked pixels, depth and the label, and the room's walls; of the thing itself it knows nothing. It serves any images whose
-depth is known in metres.
+In go a label, masked RGB with depth in metres, and the walls of the room; of the thing itself, and of who drew it, nothing is
+known. So it serves photographs and any image model as well as the offline one: where a depth model gives depth up to scale and
+shift, `wm.synth.objects.metric_depth` makes it metric by the empty room.
+
+    sighting = Sighting(camera=camera, rgb=image, depth=metric_depth(estimate, bare, seed=0), mask=mask)
+    made = TemplateReconstruction(style_of("gothic castle")).reconstruct("oak armchair", [sighting], site, room, seed=0)
 """
 
 import dataclasses
@@ -15,12 +19,11 @@ from wm.geometry.upright import transformed
 from wm.geometry.upright_box import UprightBox
 from wm.synth.backends import Reconstruction, Sighting
 from wm.synth.objects.coloring import slot_colors
-from wm.synth.objects.kinds import Template, kind_of, template_of
-from wm.synth.objects.sightings import sighting_points, trimmed
-from wm.synth.objects.template_cost import evidence_of, seen_distances
+from wm.synth.objects.kinds import Template, kind_of, largest_size, rebuilt, template_of
+from wm.synth.objects.sightings import near_together, sighting_points, trimmed
+from wm.synth.objects.template_cost import evidence_of
 from wm.synth.objects.template_fit import fit_template
 from wm.synth.procedural.finish import Style
-from wm.synth.procedural.furniture import make_piece
 from wm.types import SceneObject
 
 _POINTS = 240
@@ -42,23 +45,32 @@ class TemplateReconstruction:
     def reconstruct(
         self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
     ) -> Reconstruction | None:
-        """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen, or none fits."""
+        """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen, or none fits.
+
+        Args:
+          label: what it is, in any words: the last that names a kind of furniture decides; a box with a lid where none does.
+          sightings: what each image shows of it; one is enough, two from opposite sides are better.
+          site: the room it stands in, which holds it: floor, ceiling and walls.
+          room: index of the room, kept in the result.
+          seed: of the points that are drawn from the masks, and of what no image decides.
+        """
         share = _POINTS // len(sightings)
         points = np.concatenate([trimmed(sighting_points(s, limit=share, seed=seed)) for s in sightings])
+        points = near_together(points, largest_size(kind_of(label)))
         if len(points) < _LEAST:
             return None
         template = template_of(kind_of(label), self.style)
         evidence = evidence_of(template, points, sightings, site)
-        box = fit_template(evidence)
-        if not _plausible(box, template, site):
+        fit = fit_template(evidence)
+        if not _plausible(fit.box, template, site):
             return None
-        thing = built(label, template, box, self.style, room, seed=seed)
+        thing = built(label, template, fit.box, room, seed=seed)
         colors, seen = slot_colors(thing, sightings)
         return Reconstruction(
             thing=transformed(dataclasses.replace(thing, slot_colors=colors), np.asarray(sightings[0].camera.T_cam_world)),
             seen=seen,
             usual=thing.slot_colors,
-            residual=float(np.median(seen_distances(box, evidence))),
+            residual=fit.residual,
         )
 
 
@@ -69,14 +81,14 @@ def _plausible(box: UprightBox, template: Template, site: Site) -> bool:
     return inside and (flat or box.height > _SPLINTER * float(template.low[2]))
 
 
-def built(label: str, template: Template, box: UprightBox, style: Style, room: int, *, seed: int) -> SceneObject:
+def built(label: str, template: Template, box: UprightBox, room: int, *, seed: int) -> SceneObject:
     """A piece of the template's kind that fills a box."""
-    size = (box.width, box.depth, box.height)
-    piece = make_piece(template.kind, style, np.random.default_rng(np.random.SeedSequence([seed, 0xB1])), size=size)
+    size = np.array([box.width, box.depth, box.height])
+    piece = rebuilt(template, size, np.random.default_rng(np.random.SeedSequence([seed, 0xB1])))
     T = box.transform
-    filled = piece.vertices * (np.array(size) / piece.size)
+    filled = piece.vertices * (size / piece.size)
     return SceneObject(
         label=label, room=room, support=template.support, vertices=filled @ T[:3, :3].T + T[:3, 3], faces=piece.faces,
-        face_slot=piece.face_slot, slots=piece.slots, slot_colors=piece.slot_colors, T_world_object=T, size=np.array(size),
+        face_slot=piece.face_slot, slots=piece.slots, slot_colors=piece.slot_colors, T_world_object=T, size=size,
         emission=piece.emission,
     )  # fmt: skip

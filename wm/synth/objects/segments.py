@@ -20,7 +20,7 @@ _HIDDEN = 0.7
 
 
 def tidy_segments(segments: list[Segment], depth: Float[np.ndarray, "h w"], *, min_area: float) -> list[Segment]:
-    """Segments fit for reconstruction, large before small.
+    """Segments fit for reconstruction, large before small; in whatever order they come, and tidied twice, the same.
 
     Args:
       depth: z-depth of the image, metres.
@@ -28,9 +28,14 @@ def tidy_segments(segments: list[Segment], depth: Float[np.ndarray, "h w"], *, m
     """
     least = min_area * depth.size
     kept = [segment for segment in segments if segment.mask.sum() >= least and not is_structure(segment.label)]
-    kept = _merged(sorted(kept, key=lambda segment: -int(segment.mask.sum())))
+    kept = _merged(sorted(kept, key=_rank))
     parts = [part for segment in kept for part in _split(segment, depth, least)]
-    return sorted(parts, key=lambda segment: -int(segment.mask.sum()))
+    return sorted(parts, key=_rank)
+
+
+def _rank(segment: Segment) -> tuple[int, str, bytes]:
+    """Large before small; what is equally large has an order too, so that the one in which segments come decides nothing."""
+    return -int(segment.mask.sum()), segment.label, np.packbits(segment.mask).tobytes()
 
 
 def _merged(segments: list[Segment]) -> list[Segment]:

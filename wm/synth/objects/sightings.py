@@ -17,9 +17,12 @@ from wm.geometry.camera import camera_center, ray_basis
 from wm.geometry.upright_box import UprightBox, box_iou
 from wm.synth.backends import Segment, Sighting
 from wm.synth.objects.kinds import kind_of, largest_size
+from wm.synth.procedural.furniture import KINDS
 
 _SLACK, _MARGIN = 1.1, 0.08
 """A thing may measure this many times its kind's largest, and this many metres more."""
+_REACH = 0.8
+"""The same for the distance of a point from the middle one, as a share of the diagonal: the middle one may be near an end."""
 _SHARED, _SHARED_IN_ONE = 0.12, 0.4
 """Share of the smaller of two boxes in the other from which they are one thing: in different images, in the same one."""
 _WALL = 0.06
@@ -71,13 +74,15 @@ def joined(things: Sequence[Thing], boxes: Sequence[UprightBox | None]) -> list[
 
 
 def _is_one(a: Thing, box: UprightBox | None, b: Thing, other: UprightBox | None) -> bool:
-    """Solids of one kind do not share space: two that do are one seen twice, the more surely if no image shows both."""
+    """Solids of one kind do not share space: two that do are one seen twice, the more surely if no image shows both, or if they
+    hang, for the thin arms of what hangs come apart in an image."""
     if box is None or other is None or kind_of(a.label) != kind_of(b.label):
         return False
     iou = box_iou(box, other)
     shared = iou / (1 + iou) * (box.volume + other.volume) / min(box.volume, other.volume)
     apart = {id(sighting.camera) for sighting in a.sightings}.isdisjoint(id(sighting.camera) for sighting in b.sightings)
-    return shared > (_SHARED if apart else _SHARED_IN_ONE)
+    hang = KINDS[kind_of(a.label)].support == "ceiling"
+    return shared > (_SHARED if apart or hang else _SHARED_IN_ONE)
 
 
 def _together(things: list[Thing]) -> Thing:
@@ -157,6 +162,15 @@ def trimmed(points: Float[np.ndarray, "n 3"], share: float = 0.02) -> Float[np.n
         return points
     low, high = np.quantile(points, [share, 1 - share], axis=0)
     return points[((points > low - 0.1) & (points < high + 0.1)).all(axis=1)]
+
+
+def near_together(points: Float[np.ndarray, "n 3"], largest: Float[np.ndarray, "3"]) -> Float[np.ndarray, "m 3"]:
+    """Points without those farther from the middle one, seen from above, than a thing reaches that is no larger than `largest`:
+    behind thin things a mask's strays show the room."""
+    if not len(points):
+        return points
+    reach = _REACH * math.hypot(largest[0], largest[1]) + _MARGIN
+    return points[np.linalg.norm(points[:, :2] - np.median(points[:, :2], axis=0), axis=1) <= reach]
 
 
 def _extent_share(points: np.ndarray, limit: Float[np.ndarray, "3"]) -> float:

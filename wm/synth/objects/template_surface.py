@@ -1,0 +1,49 @@
+"""Points on a template's surface, for comparing it with points that images show."""
+
+import dataclasses
+import math
+
+import numpy as np
+from jaxtyping import Float, Int
+from scipy.spatial import KDTree
+
+from wm.synth.procedural.furniture import Piece
+
+_COUNT = 1200
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Surface:
+    """Points on a piece of furniture at the size it was built in."""
+
+    size: np.ndarray  # [3] metres
+    points: np.ndarray  # [m, 3] in the piece's frame
+    normals: np.ndarray  # [m, 3] unit
+    tree: KDTree
+    spacing: float  # metres between neighbouring points, about
+
+
+def surface_of(piece: Piece) -> Surface:
+    """Points spread over a piece's surface by area."""
+    points, normals = surface_samples(piece.vertices, piece.faces, _COUNT)
+    area = float(_areas(piece.vertices, piece.faces).sum())
+    return Surface(size=piece.size, points=points, normals=normals, tree=KDTree(points), spacing=math.sqrt(area / _COUNT))
+
+
+def surface_samples(
+    vertices: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], count: int
+) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]]:
+    """(points, unit normals) spread over a mesh by area; the same mesh always gives the same ones."""
+    rng = np.random.default_rng(7)
+    areas = _areas(vertices, faces)
+    chosen = rng.choice(len(faces), count, p=areas / areas.sum())
+    a, b, c = (vertices[faces[chosen, k]] for k in range(3))
+    u, v = np.sqrt(rng.random(count)), rng.random(count)
+    points = (1 - u)[:, None] * a + (u * (1 - v))[:, None] * b + (u * v)[:, None] * c
+    normals = np.cross(b - a, c - a)
+    return points, normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
+def _areas(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    corners = vertices[faces]
+    return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
