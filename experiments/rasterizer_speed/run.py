@@ -8,6 +8,7 @@ import csv
 import functools
 import os
 import pathlib
+import sys
 import time
 
 CORE = min(os.sched_getaffinity(0))
@@ -19,7 +20,7 @@ import numpy as np  # noqa: E402
 
 from wm.host import prepare_process  # noqa: E402
 from wm.schema import RasterSettings  # noqa: E402
-from wm.splat import plan_tiles, project, rasterize  # noqa: E402
+from wm.splat import WIDE, plan_tiles, project, rasterize  # noqa: E402
 from wm.types import Camera, Gaussians  # noqa: E402
 
 HERE = pathlib.Path(__file__).parent
@@ -34,26 +35,45 @@ CASES = (
 )
 """Gaussians, width, height, and how many times the standard size they have: at 0.6 a view lists 16M pairs."""
 
+MARGIN = 0.15
+"""By how much a step may exceed the baseline before the gate fails: the best of 15 wanders by 5 % on a shared machine."""
+
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeats", type=int, default=15)
-    repeats = parser.parse_args().repeats
+    parser.add_argument("--gate", action="store_true", help="compare with result.csv and leave it; fail if a step is slower")
+    arguments = parser.parse_args()
     prepare_process()
-    rows = [measure(*case, repeats) for case in CASES]
+    rows = [measure(*case, arguments.repeats) for case in CASES]
+    if arguments.gate:
+        sys.exit("\n".join(slower(rows)) or None)
     with open(HERE / "result.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
 
 
+def slower(rows: list[dict]) -> list[str]:
+    """One line for each case whose step, in exponentials, is more than MARGIN above the committed one."""
+    with open(HERE / "result.csv", newline="") as file:
+        baseline = [int(row["step_ms_per_ns"]) for row in csv.DictReader(file)]
+    return [
+        f"{row['gaussians']} gaussians at {row['width']} x {row['height']}: {row['step_ms_per_ns']} ms a step for each ns of an "
+        f"exponential; the committed baseline is {before}, and {MARGIN:.0%} above it is allowed"
+        for row, before in zip(rows, baseline)
+        if row["step_ms_per_ns"] > before * (1 + MARGIN)
+    ]
+
+
 def measure(n: int, width: int, height: int, size: float, repeats: int) -> dict:
     """One case: the best of `repeats` for every part, milliseconds of wall-clock on one core."""
     gaussians, camera, settings = scene(n, size), camera_of(width, height), RasterSettings()
-    shoot = jax.jit(lambda p, plan: rasterize(p, plan, width, height, settings))
-    both = jax.jit(lambda p, plan, ct: jax.vjp(lambda p: rasterize(p, plan, width, height, settings), p)[1](ct)[0])
-    projection = jax.jit(lambda g: project(g, camera, settings))
-    pull = jax.jit(lambda g, ct: jax.vjp(lambda g: project(g, camera, settings), g)[1](ct)[0])
+    jit = functools.partial(jax.jit, compiler_options=WIDE)
+    shoot = jit(lambda p, plan: rasterize(p, plan, width, height, settings))
+    both = jit(lambda p, plan, ct: jax.vjp(lambda p: rasterize(p, plan, width, height, settings), p)[1](ct)[0])
+    projection = jit(lambda g: project(g, camera, settings))
+    pull = jit(lambda g, ct: jax.vjp(lambda g: project(g, camera, settings), g)[1](ct)[0])
     projected = projection(gaussians)
     plan = plan_tiles(jax.tree.map(np.asarray, projected), width, height, settings)
     pairs = int(plan.count.sum()) * settings.tile**2

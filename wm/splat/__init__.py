@@ -20,6 +20,7 @@
     ply.py        load_ply, save_ply
 """
 
+from wm.splat._wide import WIDE
 from wm.splat.cloud import initial_gaussians
 from wm.splat.composite import rasterize
 from wm.splat.curve import FitPoint
@@ -36,6 +37,7 @@ from wm.splat.tiles_traced import TracedPlan, plan_tiles_traced
 from wm.splat.training import TrainingView
 
 __all__ = [
+    "WIDE",
     "DepthError",
     "Fit",
     "FitError",

@@ -45,7 +45,7 @@ def pull_ellipses(
         visible: where False, all results are 0.
         cotangent: `Projected` whose mean2d, root, opacity, depth and slope are 0 where not visible.
     """
-    never = camera.focal[0] == -jnp.inf
+    never = jnp.max(means[0], initial=0.0) == jnp.inf  # not asked of the camera, which may be a constant
     R, f = camera.T_cam_world, camera.focal
 
     def place(means):

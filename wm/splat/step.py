@@ -15,6 +15,7 @@ import numpy as np
 import optax
 
 from wm.schema import FitSettings, RasterSettings
+from wm.splat._wide import WIDE
 from wm.splat.composite import rasterize
 from wm.splat.exposure import expose
 from wm.splat.frozen import join_columns
@@ -116,19 +117,19 @@ def rates_at(settings: FitSettings, step: int, steps: int) -> Rates:
     )
 
 
-@functools.partial(jax.jit, static_argnames="raster")
+@functools.partial(jax.jit, static_argnames="raster", compiler_options=WIDE)
 def project_view(gaussians: Gaussians, camera: Camera, *, raster: RasterSettings) -> Projected:
     """`project`, compiled."""
     return project(gaussians, camera, raster)
 
 
-@functools.partial(jax.jit, static_argnames=("width", "height", "raster"))
+@functools.partial(jax.jit, static_argnames=("width", "height", "raster"), compiler_options=WIDE)
 def rasterize_view(projected: Projected, plan: TilePlan, *, width: int, height: int, raster: RasterSettings) -> Render:
     """`rasterize`, compiled."""
     return rasterize(projected, plan, width, height, raster)
 
 
-@functools.partial(jax.jit, static_argnames=("raster", "normals"))
+@functools.partial(jax.jit, static_argnames=("raster", "normals"), compiler_options=WIDE)
 def view_gradient(
     moving: Moving,
     target: Target,
