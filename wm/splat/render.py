@@ -24,7 +24,7 @@ from wm.types import Camera, Gaussians, Render
 TRACED_PER_GAUSSIAN, TRACED_PER_TILE = 16, 512
 """Entries that a plan made under jit has room for; shapes are fixed there before anything is known about the view."""
 
-_project = jit_wide(project, ("settings",))
+_project = jax.jit(project, static_argnames="settings")  # wide vectors gain nothing here
 _rasterize = jit_wide(rasterize, ("width", "height", "settings"))
 
 
