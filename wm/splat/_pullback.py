@@ -141,16 +141,16 @@ def pull_ellipses(
     if settings.antialias:
         scale, more, g_sharp = apart(never, by_compensation, B, log_scales, opacity, cotangent.opacity)
         g_logits, g_det = g_logits * scale, g_det + more
-    slanted = has_slope(settings)
-    if slanted:
+    by_depth = None
+    if has_slope(settings):
         more, by_depth = apart(never, by_slope, B, third, log_scales, list(cotangent.slope))
         g_det = g_det + more
     g_B = apart(never, by_axes, B, log_scales, g_det, g_xy, g_yy, g_sharp)
-    if slanted:
+    if by_depth is None:
+        g_scales, torque = apart(never, by_shape, B, g_B)
+    else:
         g_B = [[x + y for x, y in zip(*rows)] for rows in zip(g_B, by_depth)]
         g_scales, torque = apart(never, by_shape, [*B, third], [*g_B, by_depth[2]])
-    else:
-        g_scales, torque = apart(never, by_shape, B, g_B)
     g_quats = apart(never, by_quats, quats, torque)
     g_means = apart(never, by_means, means, third, B, g_B, list(cotangent.mean2d), cotangent.depth)
     return g_means, g_quats, g_scales, g_logits
