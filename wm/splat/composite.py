@@ -12,10 +12,13 @@ S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so it i
     dL/d log alpha_i = w_i g . f_i - S_i alpha_i / (1 - alpha_i)   (0 where alpha is clamped or cut),
     dL/dq_i = -dL/d log alpha_i,   dL/d log o_i = dL/d log alpha_i,   dL/d f_i = sum over pixels of w_i g.
 
-Sums over a tile's pixels are one product with the basis {1, u, v, u^2, uv, v^2}, (u, v) from the tile's centre; the derivatives
-by mean and root follow from those six moments. Tiers: a block of tiles advances together, a chunk of gaussians at a time, so
-the overhead of a loop iteration is paid once for block x tile^2 x chunk pairs. Alphas, and in the backward pass the recurrence,
-are compiled apart from their uses (_apart.py), which would otherwise each repeat them.
+Sums over a tile's pixels are taken with 1, u, v, u^2, uv, v^2, (u, v) from the tile's centre, along its rows and then down; the
+derivatives by mean and root follow from those six moments. Tiers: a block of tiles advances together, a chunk of gaussians at a
+time, so the overhead of a loop iteration is paid once for block x tile^2 x chunk pairs.
+
+Layout: [pixels, gaussians of the chunk or features, lanes of the block]. The lanes fill the vectors, and what a pixel or a row of
+pixels needs stays in the first cache while the loops turn over gaussians and features. Alphas, and in the backward pass every
+stage, are compiled apart from their uses (_apart.py), which would otherwise each repeat them.
 """
 
 import functools
@@ -32,6 +35,7 @@ from wm.schema import RasterSettings
 from wm.splat._apart import apart
 from wm.splat._axes import has_slope
 from wm.splat._exp2 import exp2_between
+from wm.splat._tile_sums import moments, moments_of_rows, offsets, products_of_rows, total
 from wm.splat.project import DEFAULTS, Projected
 from wm.splat.tiles import TilePlan
 from wm.types import Render, record
@@ -44,9 +48,6 @@ DEPTH = 3
 
 CLAMPED = 1e-6
 """Alphas closer than this (relative) to alpha_max are the clamped ones: the exponential of the clamp rounds."""
-
-STRIDE = 2
-"""Gaussians that the backward pass takes at once before it stores what it has: each of its results repeats the recurrence."""
 
 
 @record
@@ -107,7 +108,7 @@ def _depth(features: Float[Array, "lanes features pixels"], settings: RasterSett
     """The weighted sum of depths at every pixel."""
     if not has_slope(settings):
         return features[:, DEPTH]
-    u, v = _offsets(settings.tile)
+    u, v = offsets(settings.tile)
     return features[:, DEPTH] + u * features[:, DEPTH + 1] + v * features[:, DEPTH + 2]
 
 
@@ -118,8 +119,6 @@ def _image(lanes: Float[Array, "lanes pixels"], plan: TilePlan, width: int, heig
 
 
 def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> Composite:
-    count_features = table.shape[1] - GEOMETRY
-
     def block(lanes):
         tile, start, count = lanes
         origin = _origins(tile, columns, settings)
@@ -127,20 +126,21 @@ def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> C
         def step(state):
             i, length, t, F = state
             _, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
-            features = _features(g, origin, settings)
-            for k in range(settings.chunk):
-                w = jnp.where(t >= settings.transmittance_min, alpha[:, k] * t, 0.0)
-                F = [f + features[:, k, j, None] * w for j, f in enumerate(F)]
+            for k, feature in enumerate(_features(g, origin, settings)):
+                w = _weight(t, alpha[:, k], settings)
+                F = F + w[:, None] * feature
                 t = t - w
             i = i + settings.chunk
             # a lane goes on while it has entries and an open pixel; where it stops is what the backward pass will visit
-            goes_on = (length == i - settings.chunk) & (i < count) & (jnp.max(t, 1) >= settings.transmittance_min)
+            goes_on = (length == i - settings.chunk) & (i < count) & (jnp.max(t, 0) >= settings.transmittance_min)
             return i, jnp.where(goes_on, i, length), t, F
 
-        t = jnp.ones((tile.shape[0], settings.tile**2), jnp.float32)
-        state = (jnp.int32(0), jnp.zeros_like(count), t, [jnp.zeros_like(t)] * count_features)
+        t = jnp.ones((settings.tile**2, len(tile)), jnp.float32)
+        F = jnp.zeros((settings.tile**2, table.shape[1] - GEOMETRY, len(tile)), jnp.float32)
+        state = (jnp.int32(0), jnp.zeros_like(count), t, F)
         _, length, t, F = jax.lax.while_loop(lambda state: jnp.max(jnp.where(state[1] == state[0], count, 0)) > 0, step, state)
-        return Composite(transmittance=t, features=jnp.stack(F, 1), length=jnp.minimum(length + settings.chunk, count))
+        length = jnp.minimum(length + settings.chunk, count)
+        return Composite(transmittance=t.T, features=jnp.transpose(F, (2, 1, 0)), length=length)
 
     blocks = jax.lax.map(block, (plan.tile, plan.start, plan.count))
     return jax.tree.map(lambda x: x.reshape(-1, *x.shape[2:]), blocks)
@@ -156,37 +156,23 @@ def _composite_fwd(table, plan: TilePlan, columns: int, settings: RasterSettings
 
 def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent: Composite):
     table, plan, composite = residuals
-    basis = _basis(settings.tile)
-
-    def advance(t, rest, alpha, features, g_F):
-        """Some gaussians farther: weights w and dL/d log alpha of each, transmittance and rest after them."""
-        ws, ds = [], []
-        for k in range(alpha.shape[1]):
-            a = alpha[:, k]
-            value = sum(features[:, k, j, None] * g_F[:, j] for j in range(g_F.shape[1]))
-            w = jnp.where(t >= settings.transmittance_min, a * t, 0.0)
-            rest = rest - w * value
-            free = (w > 0) & (a < settings.alpha_max * (1 - CLAMPED))
-            ds.append(jnp.where(free, w * value - rest * (a / (1 - a)), 0.0))
-            ws.append(w)
-            t = t - w
-        return t, rest, ws, ds
+    weights, slopes = (functools.partial(stage, settings=settings) for stage in (_weights, _slopes))
 
     def block(gradient, lanes):
         # lanes that end together walk together: the forward pass knows where each ends
-        tile, start, count, t_final, F_final, g_t, g_F = (x[lanes] for x in per_lane)
+        tile, start, count, t_final, F_final, g_t, g_F = (x[lanes].T for x in per_lane)
         origin = _origins(tile, columns, settings)
+        stage = functools.partial(apart, start[0] < 0)
 
         def step(state):
             i, t, rest, gradient = state
             entry, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
-            features = _features(g, origin, settings)
-            ws, ds = [], []
-            for k in range(0, settings.chunk, STRIDE):
-                part = slice(k, k + STRIDE)
-                t, rest, w, d = apart(start[0] < 0, advance, t, rest, alpha[:, part], features[:, part], g_F)
-                ws, ds = ws + w, ds + d
-            rows = _gradient_rows(g, origin, jnp.stack(ds, 1), jnp.stack(ws, 1), g_F, basis, settings)
+            w, t = stage(weights, t, alpha)
+            shares = stage(_shares, w, _features(g, origin, settings), g_F)
+            d_log_alpha, rest = stage(slopes, rest, alpha, w, shares)
+            by_place = stage(moments, stage(moments_of_rows, d_log_alpha))
+            by_features = stage(total, stage(products_of_rows, w, g_F))
+            rows = _gradient_rows(g, origin, by_place, by_features, settings)
             return i + settings.chunk, t, rest, gradient.at[entry].add(rows, mode="promise_in_bounds")
 
         rest = (F_final * g_F).sum(1) + t_final * g_t
@@ -208,70 +194,82 @@ def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent:
 _composite.defvjp(_composite_fwd, _composite_bwd)
 
 
+def _weight(t, alpha, settings: RasterSettings):
+    """What a gaussian takes of the transmittance t before it: nothing where the pixel is finished."""
+    return jnp.where(t >= settings.transmittance_min, alpha * t, 0.0)
+
+
+def _weights(t, alpha, settings: RasterSettings):
+    """Weights of the chunk [pixels, chunk, lanes], and the transmittance after it [pixels, lanes]."""
+    ws = []
+    for k in range(settings.chunk):
+        ws.append(_weight(t, alpha[:, k], settings))
+        t = t - ws[k]
+    return jnp.stack(ws, 1), t
+
+
+def _shares(w, features, g_F):
+    """w_i g . f_i, [pixels, chunk, lanes]."""
+    return w * sum(features[:, j] * g_F[:, j, None] for j in range(g_F.shape[1]))
+
+
+def _slopes(rest, alpha, w, shares, settings: RasterSettings):
+    """dL/d log alpha of the chunk [pixels, chunk, lanes], and the part of the loss still to come after it [pixels, lanes]."""
+    ds = []
+    for k in range(settings.chunk):
+        a, share = alpha[:, k], shares[:, k]
+        rest = rest - share
+        free = (w[:, k] > 0) & (a < settings.alpha_max * (1 - CLAMPED))
+        ds.append(jnp.where(free, share - rest * (a / (1 - a)), 0.0))
+    return jnp.stack(ds, 1), rest
+
+
 def _origins(tile, columns: int, settings: RasterSettings):
-    """Centres of tiles in pixels, [lanes, 2]."""
-    return (jnp.stack([tile % columns, tile // columns], -1) + jnp.float32(0.5)) * settings.tile
-
-
-def _offsets(tile: int):
-    """Pixel centres from the centre of their tile, row-major: u, v [pixels]."""
-    along = np.arange(tile, dtype=np.float32) + 0.5 - tile / 2
-    v, u = np.meshgrid(along, along, indexing="ij")
-    return u.ravel(), v.ravel()
-
-
-def _basis(tile: int):
-    u, v = _offsets(tile)
-    zero = np.zeros_like(u)  # eight columns multiply faster than six
-    return jnp.asarray(np.log(2) * np.stack([np.ones_like(u), u, v, u * u, u * v, v * v, zero, zero], -1), jnp.float32)
+    """Centres of tiles, [2, lanes] pixels."""
+    return (jnp.stack([tile % columns, tile // columns]) + jnp.float32(0.5)) * settings.tile
 
 
 def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
-    """The chunk at i: gaussians [lanes, chunk], their rows [lanes, chunk, columns], their alphas [lanes, chunk, pixels]."""
-    step = i + jnp.arange(settings.chunk)
-    listed = step < count[:, None]
-    entry = ids.at[start[:, None] + step].get(mode="clip")
-    g = table.at[entry].get(mode="promise_in_bounds")
-    u, v = _offsets(settings.tile)
+    """The chunk at i: gaussians [chunk, lanes], their rows [columns, chunk, lanes], their alphas [pixels, chunk, lanes]."""
+    step = i + jnp.arange(settings.chunk)[:, None]
+    entry = ids.at[start + step].get(mode="clip")
+    g = jnp.moveaxis(table.at[entry].get(mode="promise_in_bounds"), -1, 0)
+    u, v = (x[:, None, None] for x in offsets(settings.tile))
     lowest, highest = math.log2(settings.alpha_min), math.log2(settings.alpha_max)
 
     def alphas(x, y, l0, l1, l2, log_opacity):
-        dx, dy = u - x[..., None], v - y[..., None]
-        log_alpha = log_opacity[..., None] - (l0[..., None] * dx + l1[..., None] * dy) ** 2 - (l2[..., None] * dy) ** 2
+        dx, dy = u - x, v - y
+        log_alpha = log_opacity - (l0 * dx + l1 * dy) ** 2 - (l2 * dy) ** 2
         kept = log_alpha >= lowest
         return jnp.where(kept, exp2_between(jnp.where(kept, jnp.minimum(log_alpha, highest), 0.0), lowest), 0.0)
 
-    x, y = g[..., 0] - origin[:, None, 0], g[..., 1] - origin[:, None, 1]
-    log_opacity = jnp.where(listed, g[..., 5], -jnp.inf)
-    return entry, g, apart(start[0] < 0, alphas, x, y, g[..., 2], g[..., 3], g[..., 4], log_opacity)
+    log_opacity = jnp.where(step < count, g[5], -jnp.inf)
+    return entry, g, apart(start[0] < 0, alphas, g[0] - origin[0], g[1] - origin[1], g[2], g[3], g[4], log_opacity)
 
 
 def _features(g, origin, settings: RasterSettings):
-    """What is composited, [lanes, chunk, features]: the table's columns, depth as it is at the tile's centre."""
-    features = g[..., GEOMETRY:]
-    if not has_slope(settings):
-        return features
-    color, depth, slope = jnp.split(features, (DEPTH, DEPTH + 1), axis=-1)
-    there = depth - (slope * (g[..., :2] - origin[:, None])).sum(-1, keepdims=True)
-    return jnp.concatenate([color, there, slope], -1)
+    """What is composited, [chunk, features, lanes]: the table's columns, depth as it is at the tile's centre."""
+    features = g[GEOMETRY:]
+    if has_slope(settings):
+        color, depth, slope = jnp.split(features, (DEPTH, DEPTH + 1))
+        features = jnp.concatenate([color, depth - (slope * (g[:2] - origin[:, None])).sum(0, keepdims=True), slope])
+    return jnp.swapaxes(features, 0, 1)
 
 
-def _gradient_rows(g, origin, d_log_alpha, w, g_F, basis, settings: RasterSettings):
-    """Derivatives by every column of the table, [lanes, chunk, columns]."""
-    lanes, chunk, pixels = w.shape
-    moments = jnp.dot(d_log_alpha.reshape(-1, pixels), basis, precision="highest").reshape(lanes, chunk, -1)
-    features = jnp.einsum("lkp,lfp->lkf", w, g_F, precision="highest")
-    m0, mu, mv, muu, muv, mvv = (moments[..., j] for j in range(6))
-    x, y = g[..., 0] - origin[:, None, 0], g[..., 1] - origin[:, None, 1]
+def _gradient_rows(g, origin, by_place, by_features, settings: RasterSettings):
+    """Derivatives by every column of the table, [chunk, lanes, columns], from moments of dL/d log alpha and sums of w g."""
+    m0, mu, mv, muu, muv, mvv = (math.log(2) * by_place[:, j] for j in range(6))
+    features = [by_features[:, j] for j in range(by_features.shape[1])]
+    x, y = g[0] - origin[0], g[1] - origin[1]
     sx, sy = mu - x * m0, mv - y * m0
     sxx, syy = muu - 2 * x * mu + x * x * m0, mvv - 2 * y * mv + y * y * m0
     sxy = muv - x * mv - y * mu + x * y * m0
-    l0, l1, l2 = (g[..., j] for j in (2, 3, 4))
+    l0, l1, l2 = g[2], g[3], g[4]
     ex, exx, exy = l0 * sx + l1 * sy, l0 * sxx + l1 * sxy, l0 * sxy + l1 * syy  # e = l0 dx + l1 dy summed with 1, dx, dy
     by_mean = [2 * l0 * ex, 2 * (l1 * ex + l2 * l2 * sy)]
     if has_slope(settings):
-        by_depth, slope = features[..., DEPTH], g[..., GEOMETRY + DEPTH + 1 :]
-        by_mean = [by_mean[i] - slope[..., i] * by_depth for i in range(2)]
-        features = features.at[..., DEPTH + 1 :].add(-by_depth[..., None] * jnp.stack([x, y], -1))
-    by_geometry = [*by_mean, -2 * exx, -2 * exy, -2 * l2 * syy, m0]
-    return jnp.concatenate([jnp.stack(by_geometry, -1), features], -1)
+        *color, by_depth, by_right, by_down = features
+        right, down = g[GEOMETRY + DEPTH + 1 :]
+        by_mean = [by_mean[0] - right * by_depth, by_mean[1] - down * by_depth]
+        features = [*color, by_depth, by_right - x * by_depth, by_down - y * by_depth]
+    return jnp.stack([*by_mean, -2 * exx, -2 * exy, -2 * l2 * syy, m0, *features], -1)
