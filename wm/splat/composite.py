@@ -233,7 +233,8 @@ def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
     """The chunk at i: gaussians [chunk, lanes], their rows [columns, chunk, lanes], their alphas [pixels, chunk, lanes]."""
     step = i + jnp.arange(settings.chunk)[:, None]
     entry = ids.at[start + step].get(mode="clip")
-    g = jnp.moveaxis(table.at[entry].get(mode="promise_in_bounds"), -1, 0)
+    g = table.at[entry].get(mode="promise_in_bounds")
+    g = jnp.stack([g[..., j] for j in range(table.shape[1])])  # moved, the axis would stay last in memory and lanes apart
     u, v = (x[:, None, None] for x in offsets(settings.tile))
     lowest, highest = math.log2(settings.alpha_min), math.log2(settings.alpha_max)
 
