@@ -1,6 +1,6 @@
 """Held-out splat renders of runs as one picture: python docs/sheet.py OUT.jpg COLUMNS RUN_FOLDER/heldout/ROOM/VIEW.png ...
 
-The README's gothic.jpg and scenes.jpg were made by it; their views are named in docs/README.md.
+The README's pictures were made by it.
 """
 
 import sys
@@ -18,7 +18,8 @@ def main() -> None:
     rows = -(-len(views) // int(columns))
     sheet = Image.new("RGB", (WIDTH * int(columns), height * rows))
     for k, view in enumerate(views):
-        sheet.paste(view.resize((WIDTH, height), Image.Resampling.LANCZOS), (k % int(columns) * WIDTH, k // int(columns) * height))
+        row, column = divmod(k, int(columns))
+        sheet.paste(view.resize((WIDTH, height), Image.Resampling.LANCZOS), (column * WIDTH, row * height))
     sheet.save(Path(out), quality=88)
 
 

@@ -24,20 +24,33 @@ the opening. "objects" stays empty."""
 """The JSON that is wanted, by example."""
 
 
-def image_prompt(theme: str, room: str, sights: Sequence[str] = (), *, has_reference: bool = True) -> str:
+_FURNITURE = {
+    "textured": "Furniture stays exactly where the guide shows it, at the same size and angle.",
+    "boxes": "Every grey box in the guide stands for one piece of furniture: draw in its place a piece that fills it and suits "
+    "the room. No box remains, and no furniture stands where there is none.",
+    "none": "The guide shows the room empty. Furnish it as such a room would be, and keep doorways free.",
+}
+"""By `condition.objects`: what the guide shows of them."""
+
+
+def image_prompt(
+    theme: str, room: str, sights: Sequence[str] = (), *, objects: str = "textured", has_reference: bool = True
+) -> str:
     """What an image model is asked for one view.
 
     Args:
       theme: the scene in words.
       room: the name of the room the camera stands in.
       sights: what the view shows of doors and windows, e.g. "a doorway to the library on the left".
+      objects: what the guide shows of furniture: textured | boxes | none.
       has_reference: whether a finished view of the same place goes with the guide.
     """
     parts = [
         f"A photograph taken inside the {room} of this place: {theme}.",
-        "The guide image fixes the geometry: camera, walls, openings and furniture stay exactly where it shows them, at the "
-        "same size and angle. Where the guide is in colour, those surfaces are already decided, so keep their colours and "
-        "materials and draw them crisply; where it is grey it shows distance only, so choose materials that suit the place.",
+        "The guide image fixes the geometry: camera, walls and openings stay exactly where it shows them. Where it is in colour, "
+        "those surfaces are already decided, so keep their colours and materials and draw them crisply; where it is grey it "
+        "shows distance only, so choose materials that suit the place.",
+        _FURNITURE[objects],
     ]
     if sights:
         parts.append(f"In view: {'; '.join(sights)}.")

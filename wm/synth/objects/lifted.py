@@ -187,10 +187,11 @@ def draw(
     grey = depth_grey(gbuffer, (0.0, max(float(gbuffer.depth.max()), 1e-3)))
     condition = Condition(rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth)
     plan_room = context.plan.rooms[room]
+    seen = sights(camera, room_site(context.plan, room))
     request = ImageRequest(
         condition=condition,
         reference=reference.result.rgb if reference is not None else None,
-        prompt=image_prompt(context.theme, plan_room.name, sights(camera, room_site(context.plan, room)), has_reference=False),
+        prompt=image_prompt(context.theme, plan_room.name, seen, objects="none", has_reference=False),
         view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{0 if reference is None else 1}"),
         seed=seed,
     )
