@@ -59,7 +59,8 @@ def normal_loss(
     """Mean 1 - cosine between the normals of two depths, where the scaffold is one smooth surface and the mask holds.
 
     With g = f_x (D_right - D_left) / (D_right + D_left) and h likewise, the normal of a depth at the pixel of slopes (a, b) is
-    along (-g, -h, 1 + a g + b h): central differences of the points, exactly.
+    along (-g, -h, 1 + a g + b h): central differences of the points, exactly. Between two pixels without depth the difference
+    is taken to be 0, and so is its gradient (`safe_div`).
     """
     if min(depth.shape) < 3:
         return jnp.float32(0)
@@ -73,7 +74,8 @@ def normal_loss(
         return g, h, 1 + a * g + b * h
 
     ours, scaffolds = normal(depth), normal(scaffold_depth)
-    lengths = [jnp.sqrt(x * x + y * y + z * z + 1e-12) for x, y, z in (ours, scaffolds)]
+    # No root of 0: whatever the differences, x^2 + y^2 + z^2 >= 1 / (1 + a^2 + b^2).
+    lengths = [jnp.sqrt(x * x + y * y + z * z) for x, y, z in (ours, scaffolds)]
     cosine = sum(p * q for p, q in zip(ours, scaffolds)) / (lengths[0] * lengths[1])
     inverse = safe_div(jnp.ones_like(scaffold_depth), scaffold_depth)
     middle = inverse[1:-1, 1:-1]
