@@ -7,9 +7,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wm.geometry.camera import camera_rays, make_camera
-from wm.splat.losses import depth_loss, normal_loss, photometric_loss
+from wm.splat.losses import depth_loss, normal_loss, photometric_terms
 
-photometric = jax.jit(jax.value_and_grad(lambda rgb, target, mask, w: photometric_loss(rgb, target, mask, ssim_weight=w)))
+
+@jax.jit
+@jax.value_and_grad
+def photometric(rgb, target, mask, ssim_weight):
+    l1, dissimilarity = photometric_terms(rgb, target, mask)
+    return (1 - ssim_weight) * l1 + ssim_weight * dissimilarity
 
 
 def images(seed=0):

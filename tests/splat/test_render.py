@@ -33,7 +33,7 @@ from tests.splat.scenes import (
 from wm.schema import RasterSettings
 from wm.splat import plan_tiles, project, rasterize, render
 from wm.splat._reference import render_reference
-from wm.splat.losses import depth_loss, normal_loss, photometric_loss
+from wm.splat.losses import depth_loss, normal_loss, photometric_terms
 from wm.types import Camera, Gaussians, Render
 
 DEFAULT = RasterSettings()
@@ -98,9 +98,9 @@ def whole_loss(image: Render, view: Camera):
     rng, dtype = np.random.default_rng(0), image.rgb.dtype
     target, mask = jnp.asarray(rng.random((13, 21, 3)), dtype), jnp.asarray(rng.random((13, 21)) < 0.9)
     scaffold = jnp.asarray(1 / np.linspace(0.7, 0.9, 21) + np.zeros((13, 1)), dtype)
-    photometric = photometric_loss(image.rgb, target, mask, ssim_weight=0.2)
+    l1, dissimilarity = photometric_terms(image.rgb, target, mask)
     normal = normal_loss(image.depth, scaffold, mask, jnp.asarray(view.focal, dtype), jnp.asarray(view.principal, dtype))
-    return photometric + 1.5 * depth_loss(image.depth, scaffold, mask) + 0.3 * normal
+    return 0.8 * l1 + 0.2 * dissimilarity + 1.5 * depth_loss(image.depth, scaffold, mask) + 0.3 * normal
 
 
 def test_gradient_of_the_whole_loss_against_finite_differences():

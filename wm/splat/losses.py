@@ -30,18 +30,6 @@ def photometric_terms(
     return masked_mean(jnp.abs(flat - flat_target), everywhere), masked_mean(dissimilarity, everywhere)
 
 
-def photometric_loss(
-    rgb: Float[Array, "h w 3"],
-    target: Float[Array, "h w 3"],
-    mask: Bool[Array, "h w"],
-    *,
-    ssim_weight: float | Float[Array, ""],
-) -> Float[Array, ""]:
-    """(1 - w) L1 + w (1 - SSIM) over the mask, w = `ssim_weight`."""
-    l1, dissimilarity = photometric_terms(rgb, target, mask)
-    return (1 - ssim_weight) * l1 + ssim_weight * dissimilarity
-
-
 def depth_loss(
     depth: Float[Array, "h w"], scaffold_depth: Float[Array, "h w"], mask: Bool[Array, "h w"]
 ) -> Float[Array, ""]:
