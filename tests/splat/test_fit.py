@@ -45,7 +45,7 @@ def test_a_fit_lowers_loss_and_held_out_error_and_says_when():
     result = run(heldout=HELDOUT, progress=lambda done, total, info: seen.append((done, total, info["loss"])))
     first, last = result.history
     assert (first.step, last.step) == (0, 12) and result.stopped is None
-    assert last.psnr > first.psnr + 0.3 and last.m_mae < first.m_mae
+    assert last.psnr > first.psnr + 0.3 and last.m_mae < first.m_mae and 0 < last.n_ang_deg < 180
     assert np.mean([loss for *_, loss in seen[-4:]]) < np.mean([loss for *_, loss in seen[:4]])
     assert [done for done, *_ in seen] == list(range(1, 13)) and {total for _, total, _ in seen} == {12}
     assert last.seconds >= first.seconds >= 0
@@ -75,7 +75,8 @@ def test_a_loss_that_is_not_finite_stops_at_the_last_good_state():
 @pytest.mark.slow
 def test_without_depth_weight_no_depth_is_rendered():
     result = run(settings=dataclasses.replace(SETTINGS, depth_weight=0.0, normal_weight=0.0, steps=2), heldout=HELDOUT)
-    assert result.history[-1].depth == 0 and np.isnan(result.history[-1].m_mae) and np.isfinite(result.history[-1].psnr)
+    assert result.history[-1].depth == 0 and np.isfinite(result.history[-1].psnr)
+    assert np.isnan(result.history[-1].m_mae) and np.isnan(result.history[-1].n_ang_deg)
 
 
 def test_frozen_gaussians_are_seen_and_not_moved():

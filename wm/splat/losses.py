@@ -65,11 +65,15 @@ def normal_loss(
     # No root of 0: whatever the differences, x^2 + y^2 + z^2 >= 1 / (1 + a^2 + b^2).
     lengths = [jnp.sqrt(x * x + y * y + z * z) for x, y, z in (ours, scaffolds)]
     cosine = sum(p * q for p, q in zip(ours, scaffolds)) / (lengths[0] * lengths[1])
+    return masked_mean(1 - cosine, smooth_pixels(scaffold_depth) & mask[1:-1, 1:-1])
+
+
+def smooth_pixels(scaffold_depth: Float[Array, "h w"]) -> Bool[Array, "h-2 w-2"]:
+    """Inner pixels that lie on one smooth surface (`BEND`) with their four neighbours: there differences mean its normal."""
     inverse = safe_div(jnp.ones_like(scaffold_depth), scaffold_depth)
     middle = inverse[1:-1, 1:-1]
     bends = [
         jnp.abs(before + after - 2 * middle)
         for before, after in ((inverse[1:-1, :-2], inverse[1:-1, 2:]), (inverse[:-2, 1:-1], inverse[2:, 1:-1]))
     ]
-    smooth = (jnp.maximum(*bends) <= BEND * middle) & (middle > 0)
-    return masked_mean(1 - cosine, smooth & mask[1:-1, 1:-1])
+    return (jnp.maximum(*bends) <= BEND * middle) & (middle > 0)
