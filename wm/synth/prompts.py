@@ -63,20 +63,22 @@ def image_prompt(
     return "\n\n".join(parts)
 
 
-def plan_prompt(theme: str, rooms: Sequence[str], violations: Sequence[str] = (), *, plan_format: str = PLAN_FORMAT) -> str:
+def plan_prompt(theme: str, rooms: Sequence[str], violations: Sequence[str] = ()) -> str:
     """What a language model is asked for a floor plan.
+
+    For language backends that ask a model, which say these words in their `propose` and send its answer back; the grammar needs
+    none, and a backend of this kind is not in this version.
 
     Args:
       theme: the scene in words.
       rooms: the programme, one entry a room.
       violations: what was wrong with its last answer; none the first time.
-      plan_format: a description of the JSON that is wanted.
     """
     listed = "\n".join(f"- {room}" for room in rooms)
     parts = [
         f"Design one storey of a building. Theme: {theme}.",
         f"It has these rooms, one for each line:\n{listed}\nYou may add corridors or halls that connect them, nothing else.",
-        "Answer with one JSON object and no other text, in this form:\n" + plan_format,
+        "Answer with one JSON object and no other text, in this form:\n" + PLAN_FORMAT,
         "Neighbouring rooms share their wall's line exactly and never overlap; there are no gaps between them. The outline of a "
         "room is the middle of a shared wall and the outer face of an outside wall. Doors and passages lie where two rooms "
         "touch, windows where nothing is behind the wall. Keep 0.3 m of wall beside every opening and between openings, and "
