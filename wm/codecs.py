@@ -62,11 +62,6 @@ def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:
     return buffer.getvalue()
 
 
-def decode_depth(data: bytes) -> Float[np.ndarray, "h w"]:
-    with Image.open(io.BytesIO(data)) as image:
-        return (np.asarray(image).astype(np.float64) * DEPTH_UNIT).astype(np.float32)
-
-
 def encode_arrays(arrays: Mapping[str, np.ndarray]) -> bytes:
     """An uncompressed .npz with its names in order."""
     buffer = io.BytesIO()

@@ -111,7 +111,7 @@ class FitSettings:
     batch: int = 1  # views a step, whose gradients are averaged
     rounds: int = 1  # rooms see their neighbours' latest gaussians this many times
     ssim_weight: float = 0.2
-    normal_weight: float = 0.3  # of the angle between the surface of the splat depth and the scaffold's; the paper has none
+    normal_weight: float = 0.5  # of the angle between the surface of the splat depth and the scaffold's; the paper has none
     depth_weight: float = 1.5  # per metre; the paper's 0.7 leaves depth and normals a little worse (experiments/fit_defaults)
     lr_means: float = 1.2e-3
     lr_quats: float = 2e-2

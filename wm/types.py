@@ -13,6 +13,7 @@ from typing import Any
 import chex
 import jax
 import numpy as np
+from jaxtyping import Array, Float
 
 T = typing.TypeVar("T")
 
@@ -85,6 +86,10 @@ class Gaussians:
     log_scales: Any  # [n, 3] log metres (standard deviations along the local axes)
     opacity_logits: Any  # [n]
     sh: Any  # [n, k, 3]; colour = 0.5 + sum_k sh_k Y_k(direction), sRGB-encoded
+
+
+Background = Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"]
+"""The colour behind all gaussians, one or one a pixel, on the device or the host."""
 
 
 @record

@@ -50,7 +50,7 @@ def painted(context: SceneContext, views: list[View], image: ProceduralImages, c
     )
     kept: dict[str, PaintedView] = {}
     summary = paint_scene(
-        views, whole, conditioning, image, make_backend("depth", config.depth), prompt=lambda room: "", seed=config.seed,
+        views, whole, conditioning, image, make_backend("depth", config.depth), prompt=lambda *_: "", seed=config.seed,
         load=lambda view: kept.get(view.name), store=lambda view, result, gbuffer: kept.update({view.name: result}),
         settings=PaintSettings(texture=config.texture, condition=config.condition, verify=config.verify),
     )  # fmt: skip

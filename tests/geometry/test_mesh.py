@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from tests.geometry.plans import two_rooms
 from wm.geometry import assemble_scene, build_structure, check_mesh, face_normals, object_boxes
+from wm.geometry.mesh import face_crosses
 from wm.types import OUTSIDE, Mesh, SceneObject, SurfaceKind
 
 
@@ -102,3 +103,15 @@ def test_a_broken_object_is_named():
     broken = dataclasses.replace(wedge(0), vertices=np.full((4, 3), np.nan))
     with pytest.raises(ValueError, match=r"object 1 \(stool\)"):
         assemble_scene(build_structure(two_rooms()), [wedge(0), broken])
+
+
+@given(st.integers(0, 2**16))
+def test_crosses_are_normal_to_their_edges_keep_under_turning_corners_and_cancel_over_a_closed_surface(seed):
+    rng = np.random.default_rng(seed)
+    corners = rng.normal(size=(7, 3, 3))
+    crosses = face_crosses(corners)
+    np.testing.assert_allclose(np.einsum("fi,fki->fk", crosses, corners - corners[:, :1]), 0, atol=1e-12)
+    np.testing.assert_allclose(face_crosses(np.roll(corners, 1, axis=1)), crosses, atol=1e-12)
+    np.testing.assert_allclose(face_crosses(3 * corners), 9 * crosses, atol=1e-12)
+    thing = wedge(seed)
+    np.testing.assert_allclose(face_crosses(thing.vertices[thing.faces]).sum(axis=0), 0, atol=1e-12)

@@ -140,7 +140,9 @@ def test_depth_does_not_change_when_scene_and_camera_move_together(angle, shift)
     here = cast(mesh, make_camera(eye, target, **size))
     there = cast(moved, make_camera(r @ eye + shift, r @ target + shift, **size))
     np.testing.assert_allclose(there.depth, here.depth, atol=2e-5)
-    np.testing.assert_allclose(there.normal, here.normal @ r.T, atol=1e-5) if (there.face == here.face).all() else None
+    same = there.face == here.face  # a ray through an edge may take either side
+    assert same.mean() > 0.98
+    np.testing.assert_allclose(there.normal[same], (here.normal @ r.T)[same], atol=1e-5)
 
 
 def test_far_from_the_origin_depth_keeps_its_digits():

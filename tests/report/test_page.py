@@ -9,6 +9,7 @@ from tests.geometry.plans import two_rooms
 from wm.report import ReportData, SheetRow, render_page, write_video
 from wm.report.paper import PAPER_ROWS, paper_figure
 from wm.report.pictures import depth_error_image
+from wm.report.plots import plot_error_against_time
 from wm.types import Camera, View
 
 
@@ -76,6 +77,16 @@ def test_figures_stand_beside_the_papers():
 @pytest.mark.parametrize("changes", [{"video": None}, {"history": []}, {"sheets": {}, "heroes": {}}, {"metrics": {}}])
 def test_what_was_not_made_is_left_out(changes):
     assert not _Tags(render_page(_data(**changes))).open
+
+
+def test_the_curve_has_a_panel_for_each_error_that_was_measured():
+    rows = [{"seconds": float(k), "psnr": 20.0 + k, "m_mae": 0.1 / (k + 1), "n_ang_deg": 30.0 - k} for k in range(3)]
+    titles = {"psnr": "held-out PSNR", "m_mae": "M-MAE", "n_ang_deg": "N-Ang"}
+    whole = plot_error_against_time(rows)
+    for left_out, title in titles.items():
+        part = plot_error_against_time([row | {left_out: None} for row in rows])
+        assert title in whole and title not in part
+        assert all(other in part for name, other in titles.items() if name != left_out)
 
 
 def test_equal_data_give_equal_pages():

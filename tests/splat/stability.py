@@ -149,7 +149,6 @@ CASES = {
     "sub-pixel, antialiased": Case(
         measure=changed(settings=RasterSettings(antialias=True), log_scales=np.linspace(-9, -2, 24)[:, None].repeat(3, 1)),
         promise="rounding; they fade with their area",
-
         **ROUNDING,
     ),
     "scene-sized, 50 m": Case(
@@ -177,7 +176,6 @@ CASES = {
     "1e5 gaussians on one pixel": Case(
         measure=lambda: crowd(100_000),
         promise="rounding: all are listed and count, transmittance falls to 0",
-
         **ROUNDING,
     ),
     "depth ties": Case(
@@ -195,7 +193,6 @@ CASES = {
     "no gaussians": Case(
         measure=lambda: against_twin(cloud(0), camera(), SMALL),
         promise="the background, and its gradient",
-
         **ROUNDING,
     ),
     "constant images under SSIM": Case(

@@ -3,11 +3,18 @@
 import jax
 import jax.numpy as jnp
 import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from wm.geometry.camera import camera_rays, make_camera
-from wm.splat.losses import depth_loss, normal_loss, photometric_loss
+from wm.splat.losses import depth_loss, normal_loss, photometric_terms
 
-photometric = jax.jit(jax.value_and_grad(lambda rgb, target, mask, w: photometric_loss(rgb, target, mask, ssim_weight=w)))
+
+@jax.jit
+@jax.value_and_grad
+def photometric(rgb, target, mask, ssim_weight):
+    l1, dissimilarity = photometric_terms(rgb, target, mask)
+    return (1 - ssim_weight) * l1 + ssim_weight * dissimilarity
 
 
 def images(seed=0):
@@ -80,3 +87,32 @@ def test_normals_have_no_say_beside_edges_where_nothing_is_hit_and_behind_the_ma
     assert float(angle_loss(ramp, floor * 0)[0]) == 0 and float(angle_loss(ramp, floor, jnp.zeros((16, 24), bool))[0]) == 0
     holes = angle_loss(ramp.at[5:9, 5:9].set(0.0), floor)
     assert np.isfinite(holes[0]) and np.isfinite(holes[1]).all()
+
+
+@given(st.integers(0, 2**16), st.sampled_from([1e-6, 1.0, 1e6]), st.floats(0, 1))
+@settings(max_examples=25, deadline=None)
+def test_normals_of_any_depth_have_a_finite_gradient_and_none_between_holes(seed, metres, share):
+    """Depths from micrometres to thousands of kilometres, rough from pixel to pixel, a share of them 0."""
+    rng = np.random.default_rng(seed)
+    depth = metres * rng.random((16, 24), np.float32) * (rng.random((16, 24)) >= share)
+    value, gradient = angle_loss(jnp.asarray(depth, jnp.float32), plane()[0])
+    assert 0 <= value <= 2 and np.isfinite(gradient).all()
+    padded = np.pad(depth, 2)
+    opposite = [padded[2 + 2 * i : 18 + 2 * i, 2 + 2 * j : 26 + 2 * j] for i, j in ((0, 1), (0, -1), (1, 0), (-1, 0))]
+    alone = (depth == 0) & np.all([other == 0 for other in opposite], axis=0)
+    assert not np.asarray(gradient)[alone].any()
+
+
+def test_gradient_of_normals_against_float64_differences():
+    rng = np.random.default_rng(3)
+    depth, direction = 2 + 0.3 * rng.random((16, 24)), rng.normal(size=(16, 24))
+    floor = np.asarray(plane()[0], np.float64)
+    found = np.sum(np.asarray(angle_loss(jnp.asarray(depth, jnp.float32), plane()[0])[1], np.float64) * direction)
+    with jax.enable_x64(True):
+        focal, principal, everywhere = jnp.asarray(CAMERA.focal), jnp.asarray(CAMERA.principal), jnp.ones((16, 24), bool)
+
+        def value(by):
+            return float(normal_loss(jnp.asarray(depth + by * direction), jnp.asarray(floor), everywhere, focal, principal))
+
+        numeric = (value(1e-6) - value(-1e-6)) / 2e-6
+    np.testing.assert_allclose(found, numeric, rtol=1e-4)

@@ -33,7 +33,7 @@ from tests.splat.scenes import (
 from wm.schema import RasterSettings
 from wm.splat import plan_tiles, project, rasterize, render
 from wm.splat._reference import render_reference
-from wm.splat.losses import depth_loss, normal_loss, photometric_loss
+from wm.splat.losses import depth_loss, normal_loss, photometric_terms
 from wm.types import Camera, Gaussians, Render
 
 DEFAULT = RasterSettings()
@@ -55,7 +55,7 @@ def test_values_are_the_twins(seed, case):
 @given(SEEDS)
 @settings(max_examples=8, deadline=None)
 def test_gradients_are_the_twins(seed):
-    found, exact = gradients(cloud(seed=seed, degree=3), camera(seed=seed), BACKGROUND)
+    found, exact = gradients(cloud(seed=seed, degree=3), camera(seed=seed), BACKGROUND, seed=seed)
     assert worst(found, exact) < 3e-4
 
 
@@ -71,7 +71,7 @@ def test_at_the_cuts_few_pixels_flip_and_by_little(seed):
 @given(SEEDS)
 @settings(max_examples=8, deadline=None)
 def test_gradients_at_the_cuts(seed):
-    found, exact = gradients(cloud(seed=seed, degree=3, opaque=9.0), camera(seed=seed), BACKGROUND, DEFAULT)
+    found, exact = gradients(cloud(seed=seed, degree=3, opaque=9.0), camera(seed=seed), BACKGROUND, DEFAULT, seed=seed)
     for a, b in zip(jax.tree.leaves(found), jax.tree.leaves(exact)):
         error = np.abs(a - b) / max(np.abs(b).max(), 1e-6)
         assert np.quantile(error, 0.9) < 1e-3 and error.max() < 5e-2
@@ -98,9 +98,9 @@ def whole_loss(image: Render, view: Camera):
     rng, dtype = np.random.default_rng(0), image.rgb.dtype
     target, mask = jnp.asarray(rng.random((13, 21, 3)), dtype), jnp.asarray(rng.random((13, 21)) < 0.9)
     scaffold = jnp.asarray(1 / np.linspace(0.7, 0.9, 21) + np.zeros((13, 1)), dtype)
-    photometric = photometric_loss(image.rgb, target, mask, ssim_weight=0.2)
+    l1, dissimilarity = photometric_terms(image.rgb, target, mask)
     normal = normal_loss(image.depth, scaffold, mask, jnp.asarray(view.focal, dtype), jnp.asarray(view.principal, dtype))
-    return photometric + 1.5 * depth_loss(image.depth, scaffold, mask) + 0.3 * normal
+    return 0.8 * l1 + 0.2 * dissimilarity + 1.5 * depth_loss(image.depth, scaffold, mask) + 0.3 * normal
 
 
 def test_gradient_of_the_whole_loss_against_finite_differences():

@@ -114,7 +114,7 @@ def paint(painter=None, depth=None, archive=None, views=VIEWS, conditioning=None
         conditioning or scaffold(),
         painter or Painter(),
         depth or Estimator(),
-        prompt=("a hall", "a study").__getitem__,
+        prompt=lambda view, has_reference: ("a hall", "a study")[view.room] + " again" * has_reference,
         seed=seed,
         load=archive.load,
         store=archive.store,
@@ -151,7 +151,7 @@ def test_the_scene_is_painted():
     assert first.reference is None
     assert kept["hall/bootstrap0"].reference is None
     assert all(request.reference is not None for request in rest)
-    assert [request.prompt for request in painter.requests] == ["a hall"] * 4 + ["a study"] * 3
+    assert [request.prompt for request in painter.requests] == ["a hall", *["a hall again"] * 3, *["a study again"] * 3]
     for k, request in enumerate(rest, 1):
         reference = kept[request.view.name].reference
         assert reference in summary.order[:k]

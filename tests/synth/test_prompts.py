@@ -14,6 +14,13 @@ def test_image_prompt_speaks_of_a_second_picture_only_where_there_is_one():
     assert "second picture" not in image_prompt("x", "hall", has_reference=False)
 
 
+def test_image_prompt_says_what_the_guide_shows_of_furniture():
+    texts = {objects: image_prompt("x", "hall", objects=objects) for objects in ("textured", "boxes", "none")}
+    assert "exactly where the guide shows it" in texts["textured"]
+    assert "box" in texts["boxes"] and "empty" in texts["none"]
+    assert all("exactly where the guide shows it" not in texts[objects] for objects in ("boxes", "none"))
+
+
 def test_plan_prompt_lists_rooms_and_violations():
     text = plan_prompt("a moss castle", ["hall", "bedroom", "bedroom"], ["room hall: unreachable: no doors"])
     assert text.count("- bedroom") == 2 and "- room hall: unreachable: no doors" in text

@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float, Int, Shaped
 
 from wm.geometry.charts import planar_charts
+from wm.geometry.mesh import face_crosses
 from wm.types import Atlas, Mesh
 
 EDGE = 1e-6  # texels: a centre this close to a surface's edge is on it, so that faces that share an edge leave no gap
@@ -35,7 +36,7 @@ def build_atlas(mesh: Mesh, texel_size: float) -> Atlas:
     first = np.searchsorted(chart, np.arange(count))
     corners = mesh.vertices[mesh.faces[faces]]
 
-    normal = _reduce_by(np.add, np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), first)
+    normal = _reduce_by(np.add, face_crosses(corners), first)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     u, v = _axes(normal)
     anchor = corners[first, 0]

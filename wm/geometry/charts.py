@@ -10,6 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from wm.geometry.mesh import face_crosses
 from wm.types import OUTSIDE, Mesh, SurfaceKind
 
 ANGLE_TOLERANCE = 1e-3  # radians between normals of one plane
@@ -21,7 +22,7 @@ def planar_charts(mesh: Mesh) -> Int[np.ndarray, "f"]:
     """The chart of every face, numbered in order of first face; -1 for objects, the outer skin and faces of no area."""
     chart = np.full(len(mesh.faces), -1, np.int32)
     corners = mesh.vertices[mesh.faces]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = face_crosses(corners)
     doubled_area = np.linalg.norm(cross, axis=1)
     structure = (mesh.face_object == OUTSIDE) & (mesh.face_kind != SurfaceKind.OBJECT) & (mesh.face_kind != SurfaceKind.EXTERIOR)
     faces = np.flatnonzero(structure & (doubled_area > 0))

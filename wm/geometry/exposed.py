@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float
 
 from wm.geometry.air import RoomAir, free, room_air
 from wm.geometry.footprint import portals
+from wm.geometry.mesh import face_crosses
 from wm.geometry.plan_records import FloorPlan
 from wm.geometry.raycast import RayScene
 from wm.geometry.surface_points import SurfacePoints, in_sight, surface_points
@@ -40,7 +41,7 @@ def room_surface(mesh: Mesh, room: int, *, spacing: float, detail_spacing: float
         faces = np.flatnonzero((mesh.face_room == room) & ((mesh.face_object != OUTSIDE) == objects))
         some = dataclasses.replace(mesh, faces=mesh.faces[faces], face_kind=mesh.face_kind[faces])
         corners = mesh.vertices[some.faces]
-        area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
+        area = 0.5 * np.linalg.norm(face_crosses(corners), axis=1).sum()
         points = surface_points(some, int(np.ceil(_A_CELL * area / edge**2)))
         parts.append(dataclasses.replace(points, face=faces[points.face]))
     return SurfacePoints(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("position", "normal", "face")))

@@ -28,10 +28,14 @@ BOX_FACES = np.array(
 )
 
 
+def face_crosses(corners: Float[np.ndarray, "f 3 3"]) -> Float[np.ndarray, "f 3"]:
+    """(c1 - c0) x (c2 - c0) of triangles [f, corner, xyz]: along the normal as they are wound, and twice the area long."""
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
 def face_normals(mesh: Mesh) -> Float[np.ndarray, "f 3"]:
     """Unit normals of a mesh's triangles, as they are wound; 0 for triangles without area."""
-    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
+    normals = face_crosses(mesh.vertices[mesh.faces])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     return np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)
 

@@ -25,6 +25,10 @@ FLAT = 0.1
 _OVERLAP = 0.01
 """Metres by which a passage reaches into either room, so that floors and passages are one area."""
 _DEFAULTS = NavigationSettings()
+BODY, HEADROOM = _DEFAULTS.body_radius, _DEFAULTS.obstacle_height
+"""Radius of the body that furniture leaves way for, and the height below which a thing is in its way, metres. They are the
+defaults of the body that navigability is measured with, and stay so when another is measured: what stands where does not depend
+on how it is judged."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -1,7 +1,7 @@
 """What of a room is taken: whether one more box may stand somewhere, and whether people can still pass the doors.
 
 A box may stand where it is inside the room, clear of every other box whose height it shares, out of the floor before doors and
-passages if a body could run into it, and where a body of BODY radius still gets from every door to every other that it could
+passages if a body could run into it, and where a body (navigation.BODY) still gets from every door to every other that it could
 reach in the empty room.
 """
 
@@ -11,13 +11,10 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
+from wm.geometry.navigation import BODY, FLAT, HEADROOM
 from wm.geometry.site import Site
 from wm.geometry.upright_box import UprightBox, overlap_height, penetration
 
-BODY = 0.25
-"""Radius of a body that must pass, metres (NavigationSettings.body_radius)."""
-HEADROOM = 1.8
-"""Metres below which a thing is in a body's way (NavigationSettings.obstacle_height)."""
 TOLERANCE = 0.004
 """Metres that a thing may reach into another or into a wall and still stay where it is: less than the centimetre that is
 allowed, more than rounding."""
@@ -78,7 +75,7 @@ class Occupancy:
 
 
 def _in_the_way(box: UprightBox) -> bool:
-    return box.z < HEADROOM and box.top > 0.1
+    return box.z < HEADROOM and box.top > FLAT
 
 
 def _reached(standing: BaseGeometry, probes: np.ndarray) -> list[frozenset[int]]:

@@ -11,6 +11,7 @@ import shapely
 from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
+from wm.geometry.mesh import face_crosses
 from wm.geometry.occupancy import Occupancy
 from wm.geometry.upright_box import UprightBox, box_of
 from wm.types import SceneObject
@@ -43,7 +44,7 @@ def stacked(box: UprightBox, things: list[SceneObject], taken: Occupancy, *, lif
 def top_area(thing: SceneObject) -> BaseGeometry:
     """From above, the faces of a thing that look up and lie at its highest level."""
     corners = thing.vertices[thing.faces]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = face_crosses(corners)
     level = corners[:, :, 2].min(axis=1) > thing.vertices[:, 2].max() - _LEVEL
     up = level & (normal[:, 2] > 0.9 * np.linalg.norm(normal, axis=1)) & (normal[:, 2] > 1e-12)
     return shapely.union_all(shapely.polygons(corners[up][:, :, :2]))

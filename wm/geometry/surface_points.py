@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from wm.geometry.camera import camera_center, project_points
+from wm.geometry.mesh import face_crosses
 from wm.geometry.raycast import RayScene, occluded
 from wm.types import Camera, Mesh, SurfaceKind
 
@@ -31,7 +32,7 @@ def surface_points(mesh: Mesh, count: int) -> SurfacePoints:
     """
     faces = np.flatnonzero(mesh.face_kind != SurfaceKind.EXTERIOR)
     corners = mesh.vertices[mesh.faces[faces]]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = face_crosses(corners)
     doubled = np.linalg.norm(cross, axis=1)
     total = np.cumsum(doubled)
     if not len(total) or total[-1] == 0:

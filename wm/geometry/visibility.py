@@ -15,7 +15,7 @@ from jaxtyping import Bool, Float
 
 from wm.geometry.air import floor_grid, free
 from wm.geometry.footprint import interior_polygon
-from wm.geometry.navigation import body_floor, object_corners
+from wm.geometry.navigation import BODY, body_floor, object_corners
 from wm.geometry.plan_records import FloorPlan
 from wm.geometry.raycast import RayScene, ray_scene
 from wm.geometry.surface_points import SurfacePoints, in_sight, some_points, surface_points, times_seen
@@ -24,7 +24,6 @@ from wm.types import Mesh, View
 _POINTS = 20_000
 """Surface points: a share near 0.97 is then known to about 0.001."""
 _EYES = (1.2, 1.6)  # metres above the floor: a visitor sitting, a visitor standing
-_BODY = 0.25  # metres of free floor around a visitor, as in navigation
 _FACE = 0.1  # metres of free air around an eye
 _PROBES = 40  # a room and height
 
@@ -69,7 +68,7 @@ def reachable_points(plan: FloorPlan, scene: RayScene, points: SurfacePoints) ->
 
 def _probes(plan: FloorPlan, scene: RayScene) -> list[Float[np.ndarray, "n 3"]]:
     """The eyes of visitors in each room, evenly over the floor that a body can stand on."""
-    body = body_floor(plan, object_corners(scene.mesh), height=max(_EYES), radius=_BODY)
+    body = body_floor(plan, object_corners(scene.mesh), height=max(_EYES), radius=BODY)
     probes = []
     for index, room in enumerate(plan.rooms):
         grid = floor_grid(interior_polygon(plan, index).intersection(body), _PROBES)

@@ -51,7 +51,6 @@ class ReportData:
     timings: dict[str, dict[str, float]]
     history: Sequence[dict]
     video: bytes | None
-    notes: Sequence[str] = ()
 
 
 _ROWS = [
@@ -92,7 +91,6 @@ def render_page(data: ReportData) -> str:
         "curve": plot_error_against_time(data.history) or "<p>No held-out evaluation was asked for.</p>",
         "stages": plot_stages(data.timings),
         "sheets": "".join(_sheet(name, rows) for name, rows in data.sheets.items()),
-        "notes": "".join(f"<p class='note'>{html.escape(note)}</p>" for note in data.notes),
         "range": f"{DEPTH_ERROR_RANGE * 100:.0f}",
     }
     template = importlib.resources.files("wm.report").joinpath("template.html").read_text()

@@ -8,14 +8,12 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
-from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
 from wm.splat._axes import COMPENSATION_FLOOR
 from wm.splat.harmonics import harmonics
 from wm.splat.project import DEFAULTS
-from wm.types import Camera, Gaussians, Render, record
+from wm.types import Background, Camera, Gaussians, Render, record
 
 
 @record
@@ -41,7 +39,7 @@ def render_reference(
     gaussians: Gaussians,
     camera: Camera,
     *,
-    background: Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"] | None = None,
+    background: Background | None = None,
     settings: RasterSettings = DEFAULTS,
 ) -> Render:
     """What `render` promises, in float64; call it, and differentiate it, under `with jax.enable_x64(True)`.

@@ -44,7 +44,7 @@ def to_arrays(state: RoomState) -> dict[str, np.ndarray]:
 def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
     """The state that `to_arrays` wrote.
 
-    Raises: ValueError naming what is missing.
+    Raises: ValueError naming what is missing, or that the history has other fields.
     """
     needed = [*(f"{group}.{leaf}" for group in _GROUPS for leaf in _LEAVES), *_OTHERS]
     missing = [name for name in needed if name not in arrays]
@@ -52,6 +52,8 @@ def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
         raise ValueError(f"a stored room has no {', '.join(missing)}: not written by this version")
     gaussians, mu, nu = (_gaussians(group, arrays) for group in _GROUPS)
     names = [field.name for field in dataclasses.fields(FitPoint)]
+    if arrays["history"].shape[1:] != (len(names),):
+        raise ValueError(f"a stored room has a history of {arrays['history'].shape}, not of {names}: not written by this version")
     rows = [dict(zip(names, row.tolist())) for row in arrays["history"]]
     return RoomState(
         train=TrainState(gaussians=gaussians, moments=adam_state(np.asarray(arrays["count"]), mu, nu)),

@@ -9,6 +9,9 @@ from wm.schema import FitSettings
 MEANS = ("loss", "l1", "dissimilarity", "depth")
 """Terms of the loss whose means the curve shows."""
 
+HELDOUT = ("psnr", "m_mae", "n_ang_deg")
+"""Errors of held-out views that it shows."""
+
 
 @dataclasses.dataclass(frozen=True)
 class FitPoint:
@@ -23,6 +26,7 @@ class FitPoint:
     depth: float  # metres
     psnr: float  # held-out, dB; NaN without held-out views
     m_mae: float  # held-out, metres; NaN without held-out views or without depth
+    n_ang_deg: float  # held-out, degrees between normals; NaN likewise
 
 
 def curve_steps(settings: FitSettings) -> list[int]:

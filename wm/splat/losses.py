@@ -30,18 +30,6 @@ def photometric_terms(
     return masked_mean(jnp.abs(flat - flat_target), everywhere), masked_mean(dissimilarity, everywhere)
 
 
-def photometric_loss(
-    rgb: Float[Array, "h w 3"],
-    target: Float[Array, "h w 3"],
-    mask: Bool[Array, "h w"],
-    *,
-    ssim_weight: float | Float[Array, ""],
-) -> Float[Array, ""]:
-    """(1 - w) L1 + w (1 - SSIM) over the mask, w = `ssim_weight`."""
-    l1, dissimilarity = photometric_terms(rgb, target, mask)
-    return (1 - ssim_weight) * l1 + ssim_weight * dissimilarity
-
-
 def depth_loss(
     depth: Float[Array, "h w"], scaffold_depth: Float[Array, "h w"], mask: Bool[Array, "h w"]
 ) -> Float[Array, ""]:
@@ -59,7 +47,8 @@ def normal_loss(
     """Mean 1 - cosine between the normals of two depths, where the scaffold is one smooth surface and the mask holds.
 
     With g = f_x (D_right - D_left) / (D_right + D_left) and h likewise, the normal of a depth at the pixel of slopes (a, b) is
-    along (-g, -h, 1 + a g + b h): central differences of the points, exactly.
+    along (-g, -h, 1 + a g + b h): central differences of the points, exactly. Between two pixels without depth the difference
+    is taken to be 0, and so is its gradient (`safe_div`).
     """
     if min(depth.shape) < 3:
         return jnp.float32(0)
@@ -73,13 +62,18 @@ def normal_loss(
         return g, h, 1 + a * g + b * h
 
     ours, scaffolds = normal(depth), normal(scaffold_depth)
-    lengths = [jnp.sqrt(x * x + y * y + z * z + 1e-12) for x, y, z in (ours, scaffolds)]
+    # No root of 0: whatever the differences, x^2 + y^2 + z^2 >= 1 / (1 + a^2 + b^2).
+    lengths = [jnp.sqrt(x * x + y * y + z * z) for x, y, z in (ours, scaffolds)]
     cosine = sum(p * q for p, q in zip(ours, scaffolds)) / (lengths[0] * lengths[1])
+    return masked_mean(1 - cosine, smooth_pixels(scaffold_depth) & mask[1:-1, 1:-1])
+
+
+def smooth_pixels(scaffold_depth: Float[Array, "h w"]) -> Bool[Array, "h-2 w-2"]:
+    """Inner pixels that lie on one smooth surface (`BEND`) with their four neighbours: there differences mean its normal."""
     inverse = safe_div(jnp.ones_like(scaffold_depth), scaffold_depth)
     middle = inverse[1:-1, 1:-1]
     bends = [
         jnp.abs(before + after - 2 * middle)
         for before, after in ((inverse[1:-1, :-2], inverse[1:-1, 2:]), (inverse[:-2, 1:-1], inverse[2:, 1:-1]))
     ]
-    smooth = (jnp.maximum(*bends) <= BEND * middle) & (middle > 0)
-    return masked_mean(1 - cosine, smooth & mask[1:-1, 1:-1])
+    return (jnp.maximum(*bends) <= BEND * middle) & (middle > 0)

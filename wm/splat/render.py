@@ -10,7 +10,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.core import Tracer
-from jaxtyping import Array, Float
 
 from wm.schema import RasterSettings
 from wm.splat._wide import jit_wide
@@ -19,7 +18,7 @@ from wm.splat.composite import rasterize
 from wm.splat.project import DEFAULTS, Projected, project
 from wm.splat.tiles import TilePlan, plan_tiles
 from wm.splat.tiles_traced import plan_tiles_traced
-from wm.types import Camera, Gaussians, Render
+from wm.types import Background, Camera, Gaussians, Render
 
 TRACED_PER_GAUSSIAN, TRACED_PER_TILE = 16, 512
 """Entries that a plan made under jit has room for; shapes are fixed there before anything is known about the view."""
@@ -32,7 +31,7 @@ def render(
     gaussians: Gaussians,
     camera: Camera,
     *,
-    background: Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"] | None = None,
+    background: Background | None = None,
     settings: RasterSettings = DEFAULTS,
     checked: bool = False,
 ) -> Render:

@@ -78,7 +78,11 @@ def mutual_pixels(
     *,
     tolerance: float = 2.0,
 ) -> Bool[np.ndarray, "h w"]:
-    """Pixels of i that come back to within `tolerance` pixels when moved into j by D_i and back by D_j."""
+    """Pixels of i that come back to within `tolerance` pixels when moved into j by D_i and back by D_j.
+
+    For depths of an outside method, whose scene has no scaffold to tell what two views share; wm's own evaluation knows its
+    scaffold and asks `shared_pixels`.
+    """
     moved = _move(depth_i, camera_i, depth_j, camera_j)
     known = moved.there > 0
     slopes = (np.where(known[..., None], moved.uv, 0.0) - camera_j.principal) / camera_j.focal

@@ -13,16 +13,19 @@ import numpy as np
 
 from wm.schema import FitSettings
 from wm.splat.batch import Compiled, Device, SeenView, ViewLoss, batch_at, batch_losses
-from wm.splat.curve import MEANS, FitPoint, curve_steps
+from wm.splat.curve import HELDOUT, MEANS, FitPoint, curve_steps
 from wm.splat.exposure import move_exposure, no_exposure
-from wm.splat.metrics import depth_error, psnr
-from wm.splat.padding import pad_gaussians, pad_rows, unpad_rows
+from wm.splat.losses import smooth_pixels
+from wm.splat.metrics import depth_error, normal_error, normals_from_depth, psnr
+from wm.splat.padding import host, pad_gaussians, pad_rows, unpad_rows
 from wm.splat.refine import is_due, no_residual, observe, refine
 from wm.splat.room_state import NOTHING_SINCE, RoomState
 from wm.splat.step import Moving, Rates, TrainState, move, rates_at, start_state
 from wm.splat.trouble import TERMS, divergence, not_finite, weighted
 from wm.splat.watch import Watch, diverges, start_watch, watch_step, watch_visit
 from wm.types import Gaussians
+
+_smooth_pixels = jax.jit(smooth_pixels)
 
 
 class Interrupted(Exception):
@@ -176,15 +179,26 @@ class RoomFit:
             return state
         means = state.since.mean(axis=0) if len(state.since) else np.full(len(MEANS), np.nan)
         errors = [view_error(self.compiled, state.train.gaussians, seen) for seen in self.heldout]
-        heldout = np.mean(errors, axis=0) if errors else np.full(2, np.nan)
-        values = dict(zip((*MEANS, "psnr", "m_mae"), map(float, (*means, *heldout))))
+        heldout = np.mean(errors, axis=0) if errors else np.full(len(HELDOUT), np.nan)
+        values = dict(zip((*MEANS, *HELDOUT), map(float, (*means, *heldout))))
         point = FitPoint(seconds=self.clock(), step=state.step, room=self.room, **values)
         return dataclasses.replace(state, history=(*state.history, point), since=NOTHING_SINCE)
 
 
-def view_error(compiled: Compiled, gaussians: Gaussians, seen: SeenView) -> tuple[float, float]:
-    """PSNR in dB over the usable pixels of a view, and mean |depth - scaffold| in metres over those where the scaffold is hit."""
+def view_error(compiled: Compiled, gaussians: Gaussians, seen: SeenView) -> tuple[float, float, float]:
+    """What HELDOUT names, of one view: PSNR over its usable pixels, M-MAE over those where the scaffold is hit, N-Ang over those
+    where it is smooth, its normals by the same differences of its own depth."""
     render = compiled.render(gaussians, seen)
-    mask, scaffold = np.asarray(seen.target.mask), np.asarray(seen.target.depth)
-    m_mae = depth_error(render.depth, scaffold, mask).mae if compiled.raster.depth else float("nan")
-    return psnr(render.rgb, np.asarray(seen.target.rgb) / np.float32(255), mask), m_mae
+    target = host(seen.target)
+    value = psnr(render.rgb, target.rgb / np.float32(255), target.mask)
+    if not compiled.raster.depth:
+        return value, float("nan"), float("nan")
+    inner = np.zeros_like(target.mask)
+    if min(inner.shape) >= 3:
+        inner[1:-1, 1:-1] = np.asarray(_smooth_pixels(target.depth)) & target.mask[1:-1, 1:-1]
+    normals = normals_from_depth(target.depth, target.camera)
+    return (
+        value,
+        depth_error(render.depth, target.depth, target.mask).mae,
+        normal_error(render.depth, target.camera, normals, inner).angle,
+    )

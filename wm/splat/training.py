@@ -16,7 +16,7 @@ class TrainingView:
 
     camera: Camera
     rgb: np.ndarray  # [h, w, 3] uint8
-    depth: np.ndarray  # [h, w] float32 z-depth of the scaffold, metres; 0 where it is not hit or not to be trusted (a window)
+    depth: np.ndarray  # [h, w] float32 z-depth of the scaffold, metres; 0 where it is not hit
     mask: np.ndarray  # [h, w] bool: usable pixels
     room: int  # the room it stands in
     own: np.ndarray | None = None  # [h, w] bool: pixels that show a surface of `room`; None: all of them

@@ -78,7 +78,12 @@ def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> 
             _conditioning(scene, scaffold, config.condition.objects),
             image,
             depth,
-            prompt=lambda room: image_prompt(config.scene.theme, scene.plan.rooms[room].name),
+            prompt=lambda view, has_reference: image_prompt(
+                config.scene.theme,
+                scene.plan.rooms[view.room].name,
+                objects=config.condition.objects,
+                has_reference=has_reference,
+            ),
             seed=config.seed,
             load=lambda view: read_view(job, view) if job.folder.has(_entry(view), key) else None,
             store=lambda view, painted, gbuffer: _store(job, scene, key, view, painted, gbuffer.depth),

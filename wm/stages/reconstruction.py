@@ -59,7 +59,11 @@ def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, capa
 
 
 def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, gbuffer: GBuffer) -> TrainingView:
-    """A painted or true image with the scaffold behind it. A window's depth is that of its pane, which closes the scene."""
+    """A painted or true image with the scaffold behind it.
+
+    A window's depth is that of its pane: the outdoors is painted on it. Left without depth, gaussians would stray out of the
+    scene to show it, and the metrics, which count depth wherever the scaffold is hit, would say so.
+    """
     mesh = scene.mesh
     sees = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
     return TrainingView(

@@ -16,6 +16,7 @@ import jax
 import numpy as np
 
 from wm.geometry import cast
+from wm.geometry.mesh import face_crosses
 from wm.host import cores
 from wm.schema import FitSettings, RunConfig
 from wm.splat.padding import Capacity
@@ -77,7 +78,7 @@ def contenders(scene: Scene, settings: FitSettings) -> list[int]:
     """
     mesh = scene.mesh
     corners = mesh.vertices[mesh.faces]
-    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area = 0.5 * np.linalg.norm(face_crosses(corners), axis=1)
     cells = np.where(mesh.face_object != OUTSIDE, 0.5 * area / settings.detail_spacing**2, area / settings.spacing**2)
     inside = mesh.face_room != OUTSIDE
     painted = sorted({view.room for view in scene.views})

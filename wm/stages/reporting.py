@@ -10,6 +10,7 @@ from wm.codecs import to_bytes
 from wm.geometry import cast, walkthrough
 from wm.geometry.camera import scale_camera
 from wm.report import ReportData, SheetRow, render_page, write_video
+from wm.splat.curve import HELDOUT
 from wm.stages.evaluation import GLIMPSE, METRICS, Seen, glimpse, look_all, stored_render
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
@@ -139,8 +140,8 @@ def _scene_curve(history: tuple[dict, ...]) -> list[dict]:
         latest[point["room"]] = point
         if len(latest) == expected:
             row: dict = {"seconds": point["seconds"]}
-            for name in ("psnr", "m_mae"):
-                values = [p[name] for p in latest.values() if p[name] is not None]
+            for name in HELDOUT:
+                values = [p[name] for p in latest.values() if p.get(name) is not None]
                 row[name] = float(np.mean(values)) if values else None
             curve.append(row)
     return curve

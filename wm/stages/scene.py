@@ -1,5 +1,6 @@
 """Plan, structure, furniture and cameras: everything that is fixed before anything is painted."""
 
+import contextlib
 import dataclasses
 import json
 import pathlib
@@ -19,7 +20,7 @@ from wm.geometry import (
     plan_to_json,
 )
 from wm.stages.job import Job
-from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext, make_backend
+from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext, close_backend, make_backend
 from wm.synth.language.propose import propose_plan
 from wm.types import Mesh, SceneObject, View
 
@@ -104,7 +105,8 @@ def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[Scen
         return (), key
     if not job.folder.has("furnish", key):
         objects: list[SceneObject] = []
-        with job.bar("furnish", len(context.plan.rooms)) as bar:
+        with contextlib.ExitStack() as done, job.bar("furnish", len(context.plan.rooms)) as bar:
+            done.callback(close_backend, backend)
             for room in range(len(context.plan.rooms)):
                 objects += backend.furnish(context, room, density=config.furnish.density)
                 bar.update()

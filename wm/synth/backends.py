@@ -155,6 +155,15 @@ class DepthBackend(Protocol):
         ...
 
 
+@runtime_checkable
+class ClosableBackend(Protocol):
+    """A backend that holds more than memory, such as processes."""
+
+    def close(self) -> None:
+        """Ends what it holds."""
+        ...
+
+
 CHOICES: dict[str, tuple[str, ...]] = {
     "language": ("grammar",),
     "image": ("procedural",),
@@ -178,3 +187,9 @@ def make_backend(group: str, config: Any, context: SceneContext | None = None) -
         raise ValueError(f"unknown {group} backend {config.name!r}; choices: {', '.join(CHOICES[group])}")
     module = importlib.import_module(f"wm.synth.{group}.{config.name}")
     return module.make(config, context)
+
+
+def close_backend(backend: Any) -> None:
+    """Ends the processes and threads that a backend holds, if it holds any."""
+    if isinstance(backend, ClosableBackend):
+        backend.close()

@@ -60,7 +60,7 @@ def paint_scene(
     image: ImageBackend,
     depth: DepthBackend,
     *,
-    prompt: Callable[[int], str],
+    prompt: Callable[[View, bool], str],
     seed: int,
     load: Callable[[View], PaintedView | None],
     store: Callable[[View, PaintedView, GBuffer], None],
@@ -75,7 +75,7 @@ def paint_scene(
       conditioning: the one that the image model is shown and held to; another than `scaffold` in the variants that replace
         objects by boxes or leave them out. Its structure faces must be those of `scaffold`.
       image, depth: the backends.
-      prompt: the words for a room, by its index.
+      prompt: the words for a view, by the view and whether a style reference goes with them.
       seed: of the scene; each attempt's seed derives from (seed, the view's index, attempt).
       load: what `store` was given for a view, now or by an earlier run; None for a view that is not finished.
       store: keeps a finished view, of which it is also given the true scaffold's G-buffer. It is called once a view, before
@@ -104,7 +104,7 @@ def paint_scene(
             request = ImageRequest(
                 condition=_condition(shown, view, atlas, conditioning, depth_range, settings),
                 reference=None if reference is None else _image_of(views[reference], images.get(reference), load),
-                prompt=prompt(view.room),
+                prompt=prompt(view, reference is not None),
                 view=view,
                 seed=seed,
             )

@@ -24,20 +24,33 @@ the opening. "objects" stays empty."""
 """The JSON that is wanted, by example."""
 
 
-def image_prompt(theme: str, room: str, sights: Sequence[str] = (), *, has_reference: bool = True) -> str:
+_FURNITURE = {
+    "textured": "Furniture stays exactly where the guide shows it, at the same size and angle.",
+    "boxes": "Every grey box in the guide stands for one piece of furniture: draw in its place a piece that fills it and suits "
+    "the room. No box remains, and no furniture stands where there is none.",
+    "none": "The guide shows the room empty. Furnish it as such a room would be, and keep doorways free.",
+}
+"""By `condition.objects`: what the guide shows of them."""
+
+
+def image_prompt(
+    theme: str, room: str, sights: Sequence[str] = (), *, objects: str = "textured", has_reference: bool = True
+) -> str:
     """What an image model is asked for one view.
 
     Args:
       theme: the scene in words.
       room: the name of the room the camera stands in.
       sights: what the view shows of doors and windows, e.g. "a doorway to the library on the left".
+      objects: what the guide shows of furniture: textured | boxes | none.
       has_reference: whether a finished view of the same place goes with the guide.
     """
     parts = [
         f"A photograph taken inside the {room} of this place: {theme}.",
-        "The guide image fixes the geometry: camera, walls, openings and furniture stay exactly where it shows them, at the "
-        "same size and angle. Where the guide is in colour, those surfaces are already decided, so keep their colours and "
-        "materials and draw them crisply; where it is grey it shows distance only, so choose materials that suit the place.",
+        "The guide image fixes the geometry: camera, walls and openings stay exactly where it shows them. Where it is in colour, "
+        "those surfaces are already decided, so keep their colours and materials and draw them crisply; where it is grey it "
+        "shows distance only, so choose materials that suit the place.",
+        _FURNITURE[objects],
     ]
     if sights:
         parts.append(f"In view: {'; '.join(sights)}.")
@@ -50,20 +63,22 @@ def image_prompt(theme: str, room: str, sights: Sequence[str] = (), *, has_refer
     return "\n\n".join(parts)
 
 
-def plan_prompt(theme: str, rooms: Sequence[str], violations: Sequence[str] = (), *, plan_format: str = PLAN_FORMAT) -> str:
+def plan_prompt(theme: str, rooms: Sequence[str], violations: Sequence[str] = ()) -> str:
     """What a language model is asked for a floor plan.
+
+    For language backends that ask a model, which say these words in their `propose` and send its answer back; the grammar needs
+    none, and a backend of this kind is not in this version.
 
     Args:
       theme: the scene in words.
       rooms: the programme, one entry a room.
       violations: what was wrong with its last answer; none the first time.
-      plan_format: a description of the JSON that is wanted.
     """
     listed = "\n".join(f"- {room}" for room in rooms)
     parts = [
         f"Design one storey of a building. Theme: {theme}.",
         f"It has these rooms, one for each line:\n{listed}\nYou may add corridors or halls that connect them, nothing else.",
-        "Answer with one JSON object and no other text, in this form:\n" + plan_format,
+        "Answer with one JSON object and no other text, in this form:\n" + PLAN_FORMAT,
         "Neighbouring rooms share their wall's line exactly and never overlap; there are no gaps between them. The outline of a "
         "room is the middle of a shared wall and the outer face of an outside wall. Doors and passages lie where two rooms "
         "touch, windows where nothing is behind the wall. Keep 0.3 m of wall beside every opening and between openings, and "

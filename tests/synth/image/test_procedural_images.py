@@ -8,10 +8,11 @@ import pytest
 from tests.synth.procedural.boxes import COARSE, furnished
 from wm.geometry.camera import make_camera
 from wm.schema import ImageConfig
-from wm.synth.backends import Condition, ImageRequest, make_backend
+from wm.synth.backends import Condition, ImageRequest, close_backend, make_backend
 from wm.synth.image.imagination import SCENE, Imagination, imagined
 from wm.synth.image.procedural import ProceduralImages, Scenery, lowpass
 from wm.synth.procedural.style import style_of
+from wm.synth.procedural.worker import Recipe, WorkerWorld
 from wm.synth.procedural.world import World
 from wm.types import OUTSIDE, View
 
@@ -51,6 +52,16 @@ def make_scenery(which):
 
 def model(drift=0.0, **strengths):
     return ProceduralImages(make_scenery=make_scenery, config=ImageConfig(drift=drift, **strengths))
+
+
+def test_closing_ends_the_processes_of_its_worlds():
+    recipe = Recipe(furnished(), supersampling=1, settings=COARSE)
+    images = ProceduralImages(lambda which: Scenery(furnished(), WorkerWorld(recipe, lanes=1)), ImageConfig())
+    world = images.scenery(SCENE).world
+    assert world.shoot(VIEW.camera).rgb.shape == (48, 72, 3)
+    close_backend(images)
+    with pytest.raises(RuntimeError, match="ended"):
+        world.shoot(VIEW.camera)
 
 
 def test_without_drift_it_is_the_truth(shot):

@@ -27,7 +27,7 @@ from wm.synth.backends import (
 )  # fmt: skip
 from wm.synth.objects.lifted import Models, lift_room, sights
 from wm.synth.objects.reconstruction import TemplateReconstruction
-from wm.types import OUTSIDE
+from wm.types import OUTSIDE, View
 
 CONFIG = ObjectsConfig(name="lifted", image_width=240, image_height=180)
 COARSE = ImageConfig(texel_size=0.08)
@@ -97,6 +97,36 @@ def test_nothing_is_copied_from_the_generator():
     backend, room = lifted()
     truth = {thing.vertices.tobytes() for thing in backend.imagined(bare(), 1.0).objects}
     assert not truth & {thing.vertices.tobytes() for thing in room.objects}
+
+
+def test_what_it_holds_is_of_the_context_and_the_density_that_it_is_asked_for():
+    """Contexts are told apart by identity: two that are equal but for the seed have the same plan, theme and structure."""
+    backend = make_backend("objects", CONFIG, bare())
+    other = dataclasses.replace(bare(), seed=bare().seed + 1)
+    asked = [(bare(), 1.0), (other, 1.0), (bare(), 0.0), (bare(), 1.0)]
+    scenes = [backend.imagined(context, density) for context, density in asked]
+    assert backend.imagined(*asked[-1]) is scenes[-1]
+    for (context, density), scene in zip(asked, scenes):
+        fresh = make_backend("objects", CONFIG, context).imagined(context, density)
+        assert [thing.vertices.tobytes() for thing in scene.objects] == [thing.vertices.tobytes() for thing in fresh.objects]
+    held = [{thing.vertices.tobytes() for thing in scene.objects} for scene in scenes]
+    assert held[0] != held[1] and held[0] != held[2] and held[0] == held[3]
+
+
+def test_its_models_end_with_it_and_with_the_scene_they_are_of():
+    small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
+    backend = make_backend("objects", small, bare()).with_models(COARSE, DepthConfig())
+    backend.lift(bare(), 1)
+    first = backend._models
+    backend.lift(bare(), 0)
+    assert backend._models is first
+    backend.imagined(dataclasses.replace(bare(), seed=9), 1.0)
+    view = View(bootstrap_cameras(bare().plan, build_ray_scene(bare().structure), 1, CameraSettings())[0], 1, "bootstrap", "v")
+    with pytest.raises(RuntimeError, match="shutdown"):
+        first.image.prefetch([view])
+    backend.close()
+    backend.close()
+    assert backend._models is None
 
 
 @pytest.mark.slow

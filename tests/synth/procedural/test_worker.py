@@ -1,6 +1,10 @@
 """A world in another process is the same world, from any thread, and says so when it is gone."""
 
 import dataclasses
+import os
+import signal
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -46,3 +50,31 @@ def test_a_worker_that_is_gone_is_named():
     with pytest.raises(RuntimeError, match=r"offline world ended \(exit code -9\)"):
         world.shoot(camera(0.4))
     world.close()
+
+
+def test_ctrl_c_is_not_for_the_worker(worker):
+    assert os.getsid(worker._process.pid) == worker._process.pid != os.getsid(0)
+
+
+CALLER = """
+import functools, time, types
+from wm.synth.procedural.worker import WorkerWorld
+busy = types.SimpleNamespace(make=functools.partial(time.sleep, 3600), context=types.SimpleNamespace(objects=()))
+world = WorkerWorld(busy, lanes=1)
+world._start()
+print("started", flush=True)
+time.sleep(3600)
+"""
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_it_ends_with_its_caller_in_the_middle_of_its_work(how):
+    """The worker holds the caller's standard output too: that ends when both have."""
+    paths = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    caller = subprocess.Popen(
+        [sys.executable, "-c", CALLER], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=paths, start_new_session=True
+    )
+    assert caller.stdout is not None and caller.stdout.readline() == b"started\n"
+    os.killpg(caller.pid, how)
+    caller.communicate(timeout=120)
+    assert caller.returncode != 0

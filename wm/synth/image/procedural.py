@@ -108,6 +108,13 @@ class ProceduralImages:
                 self._sceneries[which] = self.make_scenery(which)
             return self._sceneries[which]
 
+    def close(self) -> None:
+        """Ends the threads and the processes of its worlds; what they are at is finished first, what waits is dropped."""
+        self._pool.shutdown(cancel_futures=True)
+        for scenery in self._sceneries.values():
+            if isinstance(scenery.world, WorkerWorld):
+                scenery.world.close()
+
     def _imagine(self, request: ImageRequest) -> Imagination:
         """The world that a request is answered with: the scene's own in all that the condition shows, and what the seed says."""
         condition, count = request.condition, self.config.imaginations

@@ -13,7 +13,6 @@ Source: WorldMesh, "Object Instantiation" and supplement, "Object Segmentation",
 """
 
 import dataclasses
-import functools
 
 import numpy as np
 
@@ -38,6 +37,7 @@ from wm.synth.backends import (
     Segment,
     SegmentationBackend,
     Sighting,
+    close_backend,
     make_backend,
 )
 from wm.synth.condition import depth_grey
@@ -89,17 +89,18 @@ class LiftedRoom:
         return list(self.placement.objects)
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
 class LiftedObjects:
-    """The backend."""
+    """The backend. It holds the models of the scene that it furnished last, and with them processes, until it is closed."""
 
-    config: ObjectsConfig
-    image: ImageConfig = dataclasses.field(default_factory=ImageConfig)
-    depth: DepthConfig = dataclasses.field(default_factory=DepthConfig)
-    _scenes: dict[float, SceneContext] = dataclasses.field(default_factory=dict)
+    def __init__(self, config: ObjectsConfig, *, image: ImageConfig | None = None, depth: DepthConfig | None = None):
+        self.config = config
+        self._image = image or ImageConfig()
+        self._depth = depth or DepthConfig()
+        self._latest: _Imagined | None = None
+        self._models: Models | None = None  # of the latest scene
 
     def with_models(self, image: ImageConfig, depth: DepthConfig) -> "LiftedObjects":
-        """The same backend, its images drawn and their depth estimated by these."""
+        """A backend with the same settings, its images drawn and their depth estimated by these."""
         return LiftedObjects(self.config, image=image, depth=depth)
 
     def furnish(self, context: SceneContext, room: int, *, density: float = 1.0) -> list[SceneObject]:
@@ -113,31 +114,53 @@ class LiftedObjects:
     def lift(self, context: SceneContext, room: int, *, density: float = 1.0) -> LiftedRoom:
         """The objects of one room, and how they came about."""
         imagined = self.imagined(context, density)
+        if self._models is None:
+            self._models = self.models(imagined)
         settings = CameraSettings(width=self.config.image_width, height=self.config.image_height, fov=self.config.fov)
         scene = build_ray_scene(assemble_scene(imagined.structure, imagined.objects))
         cameras = bootstrap_cameras(context.plan, scene, room, settings)
-        return lift_room(context, room, cameras, self.models(imagined), self.config)
+        return lift_room(context, room, cameras, self._models, self.config)
 
     def imagined(self, context: SceneContext, density: float) -> SceneContext:
         """The scene that the offline image model has in mind: the generator's furniture in every room."""
-        if density not in self._scenes:
+        latest = self._latest
+        if latest is None or latest.context is not context or latest.density != density:
+            self.close()
             generator = ProceduralObjects(self.config)
             rooms = range(len(context.plan.rooms))
             objects = [thing for room in rooms for thing in generator.furnish(context, room, density=density)]
-            self._scenes[density] = dataclasses.replace(context, objects=tuple(objects))
-        return self._scenes[density]
+            latest = _Imagined(context, density, furnished=dataclasses.replace(context, objects=tuple(objects)))
+            self._latest = latest
+        return latest.furnished
 
     def models(self, imagined: SceneContext, image: ImageBackend | None = None) -> Models:
-        """The selected image model, or the one given; the selected depth model; the offline segmentation and reconstruction."""
+        """The selected image model, or the one given; the selected depth model; the offline segmentation and reconstruction.
+
+        Whoever asks for an image model closes it.
+        """
         return Models(
-            image=image if image is not None else _image_model(self.image, imagined),
-            depth=make_backend("depth", self.depth, imagined),
+            image=image if image is not None else _image_model(self._image, imagined),
+            depth=make_backend("depth", self._depth, imagined),
             segmentation=DrawnSegmentation(self.config),
             reconstruction=TemplateReconstruction(style_of(imagined.theme)),
         )
 
+    def close(self) -> None:
+        """Ends what it holds; furnishing again makes it anew."""
+        if self._models is not None:
+            close_backend(self._models.image)
+        self._latest = self._models = None
 
-@functools.lru_cache(maxsize=1)
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Imagined:
+    """What a scene was furnished with at a density."""
+
+    context: SceneContext
+    density: float
+    furnished: SceneContext
+
+
 def _image_model(config: ImageConfig, imagined: SceneContext) -> ImageBackend:
     coarse = dataclasses.replace(config, texel_size=max(config.texel_size, _COARSE), supersampling=1)
     return make_backend("image", coarse, imagined)
@@ -187,10 +210,11 @@ def draw(
     grey = depth_grey(gbuffer, (0.0, max(float(gbuffer.depth.max()), 1e-3)))
     condition = Condition(rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth)
     plan_room = context.plan.rooms[room]
+    seen = sights(camera, room_site(context.plan, room))
     request = ImageRequest(
         condition=condition,
         reference=reference.result.rgb if reference is not None else None,
-        prompt=image_prompt(context.theme, plan_room.name, sights(camera, room_site(context.plan, room)), has_reference=False),
+        prompt=image_prompt(context.theme, plan_room.name, seen, objects="none", has_reference=False),
         view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{0 if reference is None else 1}"),
         seed=seed,
     )

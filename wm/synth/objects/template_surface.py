@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
+from wm.geometry.mesh import face_crosses
 from wm.synth.procedural.furniture import Piece
 
 _COUNT = 1200
@@ -26,7 +27,7 @@ class Surface:
 def surface_of(piece: Piece) -> Surface:
     """Points spread over a piece's surface by area."""
     points, normals = surface_samples(piece.vertices, piece.faces, _COUNT)
-    area = float(_areas(piece.vertices, piece.faces).sum())
+    area = float(np.linalg.norm(face_crosses(piece.vertices[piece.faces]), axis=1).sum()) / 2
     return Surface(size=piece.size, points=points, normals=normals, tree=KDTree(points), spacing=math.sqrt(area / _COUNT))
 
 
@@ -35,15 +36,11 @@ def surface_samples(
 ) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]]:
     """(points, unit normals) spread over a mesh by area; the same mesh always gives the same ones."""
     rng = np.random.default_rng(7)
-    areas = _areas(vertices, faces)
-    chosen = rng.choice(len(faces), count, p=areas / areas.sum())
+    crosses = face_crosses(vertices[faces])
+    doubled_areas = np.linalg.norm(crosses, axis=1)
+    chosen = rng.choice(len(faces), count, p=doubled_areas / doubled_areas.sum())
     a, b, c = (vertices[faces[chosen, k]] for k in range(3))
     u, v = np.sqrt(rng.random(count)), rng.random(count)
     points = (1 - u)[:, None] * a + (u * (1 - v))[:, None] * b + (u * v)[:, None] * c
-    normals = np.cross(b - a, c - a)
+    normals = crosses[chosen]
     return points, normals / np.linalg.norm(normals, axis=1, keepdims=True)
-
-
-def _areas(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    corners = vertices[faces]
-    return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2

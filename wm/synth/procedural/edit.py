@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Int
 
 from wm.geometry.footprint import FloorPlan, Portal, portals
-from wm.geometry.mesh import BOX_CORNERS, BOX_FACES
+from wm.geometry.mesh import BOX_CORNERS, BOX_FACES, face_crosses
 from wm.types import OUTSIDE, Mesh, SurfaceKind
 
 LEAF = 0.04
@@ -75,6 +75,6 @@ def _trim(mesh: Mesh, portal: Portal, room: int) -> int:
     reveals = own if len(own) else reveals
     corners = mesh.vertices[mesh.faces[reveals]]
     far = np.linalg.norm(corners.mean(axis=1)[:, :2] - portal.ends.mean(axis=0), axis=1)
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area = np.linalg.norm(face_crosses(corners), axis=1)
     near = far < np.linalg.norm(portal.ends[1] - portal.ends[0])
     return int(reveals[np.argmax(np.where(near, area, -far))]) if near.any() else int(reveals[np.argmin(far)])

@@ -12,21 +12,23 @@ import numpy as np
 import shapely
 from scipy import ndimage
 
+from wm.geometry.navigation import BODY
 from wm.geometry.site import Site, rectangle, wall_yaw
 from wm.synth.procedural.furniture import Piece
 
-BODY = 0.33
+WAY = 0.33
 """Metres around the middle of a way: 0.66 m is what a person leaves open. It is also half a cell of the grid of navigation
-(0.15 m) more than the radius of its body (0.25 m), so that along a way that grid has a row of cells."""
-SLIM, STEP_ASIDE = 0.25, 0.2
-"""That radius, and how far from a way such a body still counts as standing at it, metres."""
+(0.15 m) more than the radius of its body (0.25 m), so that along a way that grid has a row of cells. What is moved into a room
+afterwards (occupancy.py) need only let that body pass: it takes what it is given, and here is where ways are made."""
+STEP_ASIDE = 0.2
+"""How far from a way that slim body still counts as standing at it, metres."""
 CELL = 0.1
 CLEARANCE = 0.015
 """Metres between two pieces, and between a piece and a wall."""
 LIFT = 0.002
 """Metres by which things stay off the surface they stand on, so that no two faces share a plane."""
 HEADROOM = 1.9
-"""Metres below which a hanging or standing thing is in a body's way."""
+"""Metres below which a hanging or standing thing is in the way of a door: 0.1 m more than navigation counts."""
 REACHABLE = 0.97
 """Share of the ways that must hang together."""
 BESIDE = 0.96
@@ -69,8 +71,8 @@ class Layout:
         xs, ys = (low[a] + CELL * np.arange(count[a]) for a in (0, 1))
         self.grid = np.stack(np.meshgrid(xs, ys), -1)  # [gy, gx, 2]
         self.inside = shapely.contains_xy(site.polygon, self.grid[..., 0], self.grid[..., 1])
-        self.standing = shapely.contains_xy(site.polygon.buffer(-BODY), self.grid[..., 0], self.grid[..., 1])
-        self.slim = shapely.contains_xy(site.polygon.buffer(-SLIM), self.grid[..., 0], self.grid[..., 1])
+        self.standing = shapely.contains_xy(site.polygon.buffer(-WAY), self.grid[..., 0], self.grid[..., 1])
+        self.slim = shapely.contains_xy(site.polygon.buffer(-BODY), self.grid[..., 0], self.grid[..., 1])
         self.room = site.polygon.buffer(-0.001)
         shapely.prepare(self.room)
         self.empty = self.standing  # where a body may stand in the bare room
@@ -152,12 +154,12 @@ class Layout:
 
     def masks(self, footprint: shapely.Polygon) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(ways, where a slim body may stand, open floor) with one more piece on the floor."""
-        x0, y0, x1, y1 = footprint.buffer(BODY).bounds
+        x0, y0, x1, y1 = footprint.buffer(WAY).bounds
         rows = slice(*np.searchsorted(self.grid[:, 0, 1], [y0, y1]))
         columns = slice(*np.searchsorted(self.grid[0, :, 0], [x0, x1]))
         near = self.grid[rows, columns]
         with_it = []
-        for mask, radius in ((self.standing, BODY), (self.slim, SLIM), (self.inside, 0.0)):
+        for mask, radius in ((self.standing, WAY), (self.slim, BODY), (self.inside, 0.0)):
             taken = footprint.buffer(radius) if radius else footprint
             shapely.prepare(taken)
             with_it.append(mask.copy())

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from wm.geometry.mesh import face_crosses
 from wm.synth.procedural.color import LUMINANCE, to_linear
 from wm.synth.procedural.finish import Finish, Style
 from wm.synth.procedural.light.sources import glow_color
@@ -164,7 +165,7 @@ def _part_frames(thing: SceneObject, grained: np.ndarray, seed: int) -> tuple[np
     axes = (turn[:, None] + np.arange(3)) % 3
     centred = corners - middle[part][:, None]
     framed = np.take_along_axis(centred, axes[part][:, None].repeat(3, axis=1), axis=2)
-    normal = np.abs(np.cross(framed[:, 1] - framed[:, 0], framed[:, 2] - framed[:, 0]))
+    normal = np.abs(face_crosses(framed))
     keep = np.where(grained[slot_of], 1.0, 0.0)[:, None]
     return framed + (shift * keep)[part][:, None], np.argmax(normal, axis=1)
 

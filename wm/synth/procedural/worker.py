@@ -2,13 +2,14 @@
 
 The worker is this module run as a program: it reads a recipe for a world from its first pipe, then answers every camera that
 arrives on one of its pipes with a shot, a thread a pipe, until they are closed. It is started by name and neither forked nor
-spawned, so that it needs nothing of the caller's `__main__` and shares no lock with the caller's threads.
+spawned, so that it needs nothing of the caller's `__main__` and shares no lock with the caller's threads. It has a session of
+its own, since Ctrl-C is for the caller, which then ends it; and it ends with the caller, however that comes about: of its
+standard input, a pipe, the caller holds the other end.
 """
 
 import dataclasses
 import os
 import queue
-import signal
 import subprocess
 import sys
 import threading
@@ -45,7 +46,8 @@ class WorkerWorld:
         pipes = [Pipe() for _ in range(lanes)]
         theirs = [pipe.fileno() for _, pipe in pipes]
         paths = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # this wm, wherever it was imported from
-        self._process = subprocess.Popen([sys.executable, "-m", __name__, *map(str, theirs)], pass_fds=theirs, env=paths)
+        command = [sys.executable, "-m", __name__, *map(str, theirs)]
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, pass_fds=theirs, env=paths, start_new_session=True)
         for _, pipe in pipes:
             pipe.close()
         ours = [pipe for pipe, _ in pipes]
@@ -87,7 +89,7 @@ def _end(process: subprocess.Popen, pipes: list[Connection]) -> None:
     for pipe in pipes:
         pipe.close()
     process.terminate()
-    process.wait()
+    process.communicate()
 
 
 def serve(pipes: list[Connection]) -> None:
@@ -119,7 +121,13 @@ def _serve_lane(world: World, pipe: Connection) -> None:
             return
 
 
+def _end_with_the_caller() -> None:
+    """Waits for the end of standard input, which nothing is ever written to: whatever is under way then is for nobody."""
+    os.read(0, 1)
+    os._exit(1)
+
+
 if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the whole group; the caller closes the pipes when it ends
+    threading.Thread(target=_end_with_the_caller, daemon=True).start()
     prepare_process()
     serve([Connection(int(number)) for number in sys.argv[1:]])

@@ -11,6 +11,8 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.sparse import coo_array
 
+from wm.geometry.mesh import face_crosses
+
 CREASE = np.cos(np.radians(40.0))
 """Faces that meet at a smaller angle are shaded as one smooth surface."""
 MOST = 12
@@ -92,7 +94,7 @@ def facet_weights(
 
 def _corner_normals(corners: np.ndarray) -> np.ndarray:
     """[f, 3, 3] unit normals: at each corner the area-weighted mean of the faces there that meet this one smoothly."""
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = face_crosses(corners)
     unit = cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-12)
     count = 3 * len(corners)
     _, place = np.unique(_place_keys(corners.reshape(-1, 3), 1e-4), return_inverse=True)

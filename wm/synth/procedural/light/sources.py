@@ -8,6 +8,7 @@ import dataclasses
 
 import numpy as np
 
+from wm.geometry.mesh import face_crosses
 from wm.synth.procedural.color import to_linear
 from wm.synth.procedural.finish import Light
 from wm.types import OUTSIDE, Mesh, SceneObject, SurfaceKind
@@ -33,7 +34,7 @@ def pane_emitters(mesh: Mesh, room: int, light: Light) -> list[Emitter]:
     faces = np.flatnonzero((mesh.face_room == room) & (mesh.face_kind == SurfaceKind.PANE))
     emitters = []
     corners = mesh.vertices[mesh.faces[faces]]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = face_crosses(corners)
     normals = cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), 1e-12)
     color = np.maximum(soften(light.sky_color), 0)
     for group in _rectangles(corners, normals):
@@ -112,7 +113,7 @@ def sun_direction(mesh: Mesh, light: Light) -> np.ndarray:
     """
     panes = (mesh.face_kind == SurfaceKind.PANE) & (mesh.face_object == OUTSIDE)
     corners = mesh.vertices[mesh.faces[panes]]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    cross = face_crosses(corners) / 2
     azimuths = light.sun_azimuth + np.radians(np.arange(0, 360, 15.0))
     toward = np.column_stack([np.cos(azimuths), np.sin(azimuths), np.zeros(len(azimuths))])
     area = np.linalg.norm(cross, axis=1)
@@ -145,7 +146,7 @@ def _object_emitter(thing: SceneObject, light: Light, count: int) -> Emitter:
     strength = thing.emission[thing.face_slot]
     faces = np.flatnonzero(strength > 0)
     corners = thing.vertices[thing.faces[faces]]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    cross = face_crosses(corners)
     area = np.linalg.norm(cross, axis=1) / 2
     flux = area * strength[faces]
     cumulative = np.cumsum(flux) / max(float(flux.sum()), 1e-12)

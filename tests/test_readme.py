@@ -1,0 +1,37 @@
+"""What the README shows of wm in Python does what it says, on a small run."""
+
+import pathlib
+import re
+
+import jax
+import numpy as np
+import pytest
+
+from tests.test_pipeline import SMALL
+from wm.pipeline import run
+from wm.run import load_config
+
+README = pathlib.Path(__file__).parents[1] / "README.md"
+
+
+def python_blocks() -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", README.read_text(), flags=re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def beside_a_run(tmp_path, monkeypatch):
+    """A working directory in which the folder that the README names is there, made by a small run."""
+    folders = set(re.findall(r"outputs/\w+/\w+/\d+", "".join(python_blocks())))
+    assert len(folders) == 1
+    monkeypatch.chdir(tmp_path)
+    run(load_config([*SMALL, "report.enabled=false"]), tmp_path / folders.pop())
+
+
+@pytest.mark.slow
+def test_the_python_part_runs_and_its_comments_hold(beside_a_run):
+    (block,) = python_blocks()
+    made: dict = {}
+    exec(compile(block, str(README), "exec"), made)
+    assert made["views"] and made["gbuffer"].hit.all()  # the scaffold is closed: every ray meets it
+    leaves = jax.tree.leaves(made["gradient"])
+    assert len(leaves) == 5 and all(np.isfinite(leaf).all() and np.any(leaf) for leaf in leaves)

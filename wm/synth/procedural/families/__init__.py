@@ -1,0 +1,28 @@
+"""The style families: palette, materials, furniture shapes and light of each, and the words of a theme that select it."""
+
+from wm.synth.procedural.families.contemporary import INDUSTRIAL, MINIMALIST, MODERN, SCANDINAVIAN
+from wm.synth.procedural.families.historic import BAROQUE, GOTHIC, ROMAN, VICTORIAN
+from wm.synth.procedural.families.imagined import CYBERPUNK, SURREAL
+from wm.synth.procedural.families.regional import COASTAL, JAPANESE, MOROCCAN, RUSTIC
+from wm.synth.procedural.families.retro import ART_DECO, MIDCENTURY
+from wm.synth.procedural.sheet import Sheet
+
+FAMILIES: dict[str, Sheet] = {
+    "gothic": GOTHIC,
+    "victorian": VICTORIAN,
+    "baroque": BAROQUE,
+    "roman": ROMAN,
+    "scandinavian": SCANDINAVIAN,
+    "minimalist": MINIMALIST,
+    "modern": MODERN,
+    "midcentury": MIDCENTURY,
+    "art_deco": ART_DECO,
+    "coastal": COASTAL,
+    "rustic": RUSTIC,
+    "industrial": INDUSTRIAL,
+    "cyberpunk": CYBERPUNK,
+    "japanese": JAPANESE,
+    "moroccan": MOROCCAN,
+    "surreal": SURREAL,
+}
+"""Every family of the offline world; "modern" is the neutral one."""
