@@ -185,6 +185,14 @@ def _discs(plane, size: float, n: int = 2400) -> Gaussians:
     )
 
 
+def test_planned_and_rasterized_step_by_step_outside_jit_it_is_the_same_image():
+    gaussians, view = to_float32((cloud(degree=3), camera()))
+    projected = project(gaussians, view)
+    plan = plan_tiles(projected, view.width, view.height)
+    image = rasterize(projected, plan, view.width, view.height)
+    chex.assert_trees_all_close(image, render(gaussians, view), atol=1e-6)
+
+
 def test_one_colour_and_one_depth_everywhere_give_that_colour_and_depth():
     gaussians = cloud(degree=3, opaque=9.0)
     sh = np.zeros((24, 16, 3))

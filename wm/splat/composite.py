@@ -27,7 +27,6 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
 from wm.numerics import safe_div
@@ -38,7 +37,7 @@ from wm.splat._exp2 import exp2_between
 from wm.splat._tile_sums import moments, moments_of_rows, offsets, products_of_rows, total
 from wm.splat.project import DEFAULTS, Projected
 from wm.splat.tiles import TilePlan
-from wm.types import Render, record
+from wm.types import Background, Render, record
 
 GEOMETRY = 6
 """Columns of the table before the features: mean x, y, root l0, l1, l2 over sqrt 2, log opacity."""
@@ -65,7 +64,7 @@ def rasterize(
     width: int,
     height: int,
     settings: RasterSettings = DEFAULTS,
-    background: Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"] | None = None,
+    background: Background | None = None,
 ) -> Render:
     """The image of projected gaussians; pure, jittable, differentiable in `projected` and `background`.
 
@@ -79,6 +78,7 @@ def rasterize(
     Returns:
         The image, float32 even where float64 is enabled. With `settings.depth` False its depth is 0 everywhere and costs nothing.
     """
+    plan = jax.tree.map(jnp.asarray, plan)
     composite = _composite(_table(projected, settings), plan, -(-width // settings.tile), settings)
     image = functools.partial(_image, plan=plan, width=width, height=height, tile=settings.tile)
     t = image(composite.transmittance)
