@@ -28,19 +28,19 @@ def scene(tmp_path_factory):
         yield build_scene(Job(config=config, folder=folder, meter=StageMeter()))
 
 
-def own_views(scene, room):
-    """The room's views, painted grey."""
-    for view in (view for view in scene.views if view.room == room):
+def own_views(scene, room, most=None):
+    """The room's views, painted grey; of many only the first."""
+    for view in [view for view in scene.views if view.room == room][:most]:
         size = (view.camera.height, view.camera.width)
         rgb, mask = np.full((*size, 3), 128, np.uint8), np.ones(size, bool)
         yield training_view(scene, view, rgb, mask, cast(scene.rays, view.camera))
 
 
-def start(scene, room, picture=None):
+def start(scene, room, picture=None, most=None):
     size = scene.views[0].camera
     cameras = dataclasses.replace(load_config(SMALL).cameras, width=size.width, height=size.height)
     return starting_gaussians(
-        scene, room, own_views(scene, room), picture, cameras=cameras, settings=SETTINGS, rng=np.random.default_rng(0)
+        scene, room, own_views(scene, room, most), picture, cameras=cameras, settings=SETTINGS, rng=np.random.default_rng(0)
     )
 
 
@@ -57,8 +57,8 @@ def bare_share(scene, means):
 
 def test_no_held_out_view_sees_a_bare_surface(scene):
     rooms = range(len(scene.rooms))
-    before = [initial_gaussians(own_views(scene, k), settings=SETTINGS, rng=np.random.default_rng(0)).means for k in rooms]
-    after = [start(scene, k).means for k in rooms]
+    before = [initial_gaussians(own_views(scene, k, 1), settings=SETTINGS, rng=np.random.default_rng(0)).means for k in rooms]
+    after = [start(scene, k, most=1).means for k in rooms]
     assert bare_share(scene, before) > 0.01 and bare_share(scene, after) < 0.003
 
 
