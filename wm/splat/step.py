@@ -13,7 +13,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import optax
-from jaxtyping import Array, Float
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat._wide import WIDE
@@ -158,11 +157,9 @@ def view_gradient(
         own = project(moving.gaussians, camera, raster)
         if moving.shift is not None:
             own = dataclasses.replace(own, mean2d=own.mean2d + moving.shift)
-        seen = target.rgb.astype(jnp.float32) / 255
-        behind = _glaring(seen, target.depth)
-        render = rasterize(join_columns(own, frozen), plan, camera.width, camera.height, raster, behind)
+        render = rasterize(join_columns(own, frozen), plan, camera.width, camera.height, raster)
         rgb = render.rgb if moving.exposure is None else expose(render.rgb, moving.exposure)
-        l1, dissimilarity = photometric_terms(rgb, seen, target.mask)
+        l1, dissimilarity = photometric_terms(rgb, target.rgb.astype(jnp.float32) / 255, target.mask)
         depth = depth_loss(render.depth, target.depth, target.mask) if raster.depth else jnp.float32(0)
         normal = jnp.float32(0)
         if raster.depth and normals:
@@ -174,14 +171,6 @@ def view_gradient(
     finite = jax.tree.map(lambda leaf: jnp.isfinite(leaf).all(), gradient)
     terms = StepTerms(loss=loss, l1=l1, dissimilarity=dissimilarity, depth=depth, normal=normal, finite=finite)
     return terms, gradient
-
-
-def _glaring(seen: Float[Array, "h w 3"], depth: Float[Array, "h w"]) -> Float[Array, "h w 3"]:
-    """A background that no surface can pass for: over black, gaussians of a dark surface would fade and leave a hole.
-
-    Black stays where there is no scaffold.
-    """
-    return jnp.where((depth > 0)[..., None] & (seen < 0.5), 1.0, 0.0)
 
 
 @functools.partial(jax.jit, donate_argnums=0)
