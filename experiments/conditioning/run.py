@@ -13,14 +13,14 @@ import pathlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from wm.geometry import assemble_scene, build_ray_scene, build_structure, cast, object_boxes, place_cameras
+from wm.geometry import assemble_scene, build_ray_scene, cast, object_boxes, place_cameras
 from wm.run import load_config, options
 from wm.schema import ConditionConfig, ImageConfig, RunConfig
 from wm.synth.attempt import PaintedView
 from wm.synth.backends import Condition, ImageRequest, SceneContext, make_backend
+from wm.synth.furnished import furnished_context
 from wm.synth.image.procedural import ProceduralImages
 from wm.synth.image.violations import KINDS
-from wm.synth.language.propose import propose_plan
 from wm.synth.paint import PaintSettings, Scaffold, paint_scene
 from wm.types import OUTSIDE, View
 
@@ -28,16 +28,6 @@ HERE = pathlib.Path(__file__).parent
 VARIANTS = ("full", "depth_objects", "depth_walls_bboxes", "depth_only")
 COLUMNS = 5
 CAPTION = 22  # pixels
-
-
-def scene_of(config: RunConfig) -> SceneContext:
-    words = config.scene
-    language = make_backend("language", config.language)
-    plan = propose_plan(language, words.theme, list(words.rooms), seed=config.seed, max_iterations=8).plan
-    context = SceneContext(theme=words.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=())
-    furnisher = make_backend("objects", config.objects, context)
-    objects = [thing for room in range(len(plan.rooms)) for thing in furnisher.furnish(context, room, density=1.0)]
-    return dataclasses.replace(context, objects=tuple(objects))
 
 
 def painted(context: SceneContext, views: list[View], image: ProceduralImages, config: RunConfig) -> dict[str, PaintedView]:
@@ -117,7 +107,7 @@ def main() -> None:
     parser.add_argument("--only", choices=("variants", "flaws"))
     arguments = parser.parse_args()
     config = load_config([f"+scene={arguments.scene}", f"preset={arguments.preset}"])
-    context = scene_of(config)
+    context = furnished_context(config)
     rays = build_ray_scene(assemble_scene(context.structure, context.objects))
     views = [view for view in place_cameras(context.plan, rays, config.cameras) if view.room == arguments.room]
     image: ProceduralImages = make_backend("image", config.image, context)

@@ -16,15 +16,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from wm.geometry import assemble_scene, build_ray_scene, build_structure, cast, place_cameras
+from wm.geometry import assemble_scene, build_ray_scene, cast, place_cameras
 from wm.geometry.footprint import portals
 from wm.run import load_config, options
 from wm.schema import RunConfig
 from wm.synth.attempt import attempt_seed
 from wm.synth.backends import ImageResult, SceneContext, make_backend
 from wm.synth.canny import depth_edges
+from wm.synth.furnished import furnished_context
 from wm.synth.image.violations import KINDS, PLAIN, Violation, draw_violation, violation
-from wm.synth.language.propose import propose_plan
 from wm.synth.procedural.edit import edited_mesh
 from wm.synth.verify import verify
 from wm.types import OUTSIDE, GBuffer, Mesh, View
@@ -47,15 +47,9 @@ class Stage:
     @classmethod
     def of(cls, scene: str, preset: str, every: int) -> "Stage":
         config = load_config([f"+scene={scene}", f"preset={preset}"])
-        words = config.scene
-        language = make_backend("language", config.language)
-        plan = propose_plan(language, words.theme, list(words.rooms), seed=config.seed, max_iterations=8).plan
-        context = SceneContext(theme=words.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=())
-        furnisher = make_backend("objects", config.objects, context)
-        objects = [thing for room in range(len(plan.rooms)) for thing in furnisher.furnish(context, room, density=1.0)]
-        context = dataclasses.replace(context, objects=tuple(objects))
+        context = furnished_context(config)
         mesh = assemble_scene(context.structure, context.objects)
-        views = place_cameras(plan, build_ray_scene(mesh), config.cameras)
+        views = place_cameras(context.plan, build_ray_scene(mesh), config.cameras)
         return cls(config, context, mesh, tuple(views[::every]))
 
 

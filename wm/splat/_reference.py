@@ -55,7 +55,9 @@ def render_reference(
     depth = jnp.where(seen, (w * layers.depth).sum(-1) / jnp.where(seen, total, 1.0), 0.0)
     behind = jnp.zeros(3) if background is None else jnp.asarray(background, jnp.float64)
     return Render(
-        rgb=w @ layers.color + (1 - total)[..., None] * behind, depth=depth if settings.depth else 0 * depth, alpha=total
+        rgb=w @ layers.color + (1 - total)[..., None] * behind,
+        depth=depth if settings.depth else jnp.zeros_like(depth),
+        alpha=total,
     )
 
 
