@@ -13,9 +13,9 @@ import numpy as np
 EXPERIMENTS = pathlib.Path(__file__).parent.parent
 
 
-def speed_script(name: str) -> Any:
-    """The script of a sibling experiment as a module, for the scene it measures."""
-    spec = importlib.util.spec_from_file_location(name, EXPERIMENTS / name / "run.py")
+def sibling(experiment: str, script: str) -> Any:
+    """A script of another experiment as a module, for the scene it measures."""
+    spec = importlib.util.spec_from_file_location(f"{experiment}_{script}", EXPERIMENTS / experiment / f"{script}.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

@@ -22,7 +22,7 @@ PANELS = [("mrays_per_s", "depth_error_m", "log"), ("mrays_per_s", "leaks", "lin
 
 
 def rows(tiny: bool, world: pathlib.Path) -> Iterator[dict]:
-    speed = bench.speed_script("raycast_speed")
+    speed = bench.sibling("raycast_speed", "run")
     mesh = speed.scene(balls=2, rings=8, segments=9) if tiny else speed.scene()
     width, height, repeats = (40, 24, 2) if tiny else (1376, 768, 15)
     camera = make_camera(np.array([0.4, 0.4, 1.6]), np.array([5.0, 4.0, 1.2]), width=width, height=height, fov_deg=60.0)
@@ -33,8 +33,8 @@ def rows(tiny: bool, world: pathlib.Path) -> Iterator[dict]:
         scene = build(mesh, robust)
         parts = {aim: functools.partial(shoot, scene, *rays) for aim, rays in aims.items()}
         for aim, ms in bench.median_ms(parts, repeats).items():
-            name = "robust" if robust else "fast"
-            yield {"vary": aim, "value": name, "mrays_per_s": len(origins) / ms / 1e3, **errors(scene, mesh, *aims[aim])}
+            labels = {"vary": aim, "value": "robust" if robust else "fast", "default": robust}
+            yield labels | {"mrays_per_s": len(origins) / ms / 1e3} | errors(scene, mesh, *aims[aim])
 
 
 def build(mesh: Mesh, robust: bool):
