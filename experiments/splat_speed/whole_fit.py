@@ -18,8 +18,9 @@ from records import Record, write
 
 from tests.splat.rooms import views_of
 from wm.host import cores, prepare_process
-from wm.schema import FitSettings
-from wm.splat import TrainingView, fit_scene, initial_gaussians, project
+from wm.schema import FitSettings, RasterSettings
+from wm.splat import TrainingView, fit_scene, initial_gaussians, plan_tiles
+from wm.splat.step import project_view
 from wm.types import Gaussians
 
 ROOMS = 2
@@ -39,7 +40,9 @@ def records(tiny: bool) -> Iterator[Record]:
     views = functools.partial(views_in, *size)
     start = initial_gaussians(views(0), settings=settings, rng=np.random.default_rng(0))
     yield record(key="gaussians a room", value=len(start.means) / 1e3, unit="1e3")
-    yield record(key="visible", value=visible(start, views(0)) / 1e3, unit="1e3")
+    visible, pairs = seen(start, views(0))
+    yield record(key="visible", value=visible / 1e3, unit="1e3")
+    yield record(key="pairs a view", value=pairs / 1e6, unit="1e6")
     rate, before = steady(timed(start, views, settings), settings.steps)
     yield record(key="rate", value=rate, unit="views/s", better="higher", wanted=20)
     yield record(key="a view", value=1e3 / rate / exp_ns, unit="ms per ns of exp", better="lower", margin=MARGIN)
@@ -51,10 +54,15 @@ def views_in(width: int, height: int, room: int) -> list[TrainingView]:
     return [dataclasses.replace(view, room=room) for view in views_of(count=16, width=width, height=height)]
 
 
-def visible(gaussians: Gaussians, views: Sequence[TrainingView]) -> float:
-    """How many gaussians a view sees in the mean."""
-    count = jax.jit(lambda camera: (project(gaussians, camera).opacity > 0).sum())
-    return float(np.mean([count(view.camera) for view in views]))
+def seen(gaussians: Gaussians, views: Sequence[TrainingView]) -> tuple[float, float]:
+    """How many gaussians a view sees, and how many (gaussian, pixel) pairs it lists, in the mean."""
+    visible, pairs, settings = [], [], RasterSettings()
+    for view in views:
+        projected = project_view(gaussians, view.camera, raster=settings)
+        plan = plan_tiles(projected, view.camera.width, view.camera.height, settings)
+        visible.append((np.asarray(projected.opacity) > 0).sum())
+        pairs.append(plan.count.sum() * settings.tile**2)
+    return float(np.mean(visible)), float(np.mean(pairs))
 
 
 def timed(start: Gaussians, views, settings: FitSettings) -> list[tuple[float, int]]:
