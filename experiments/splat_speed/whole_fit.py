@@ -6,7 +6,7 @@ under way, everything compiled, and the end of the first. What went before, comp
 
 import dataclasses
 import functools
-import inspect
+import importlib.util
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -34,19 +34,30 @@ TINY = dataclasses.replace(FULL, spacing=0.2, detail_spacing=0.2, steps=8)
 
 def records(tiny: bool) -> Iterator[Record]:
     prepare_process()
-    record = functools.partial(Record, figure="whole_fit", case=f"two rooms, 688 x 384, {cores()} cores")
     size, settings = ((64, 48), TINY) if tiny else ((688, 384), FULL)
     exp_ns = exponential_ns(15)
     views = functools.partial(views_in, *size)
     start = initial_gaussians(views(0), settings=settings, rng=np.random.default_rng(0))
-    yield record(key="gaussians a room", value=len(start.means) / 1e3, unit="1e3")
     visible, pairs = seen(start, views(0))
-    yield record(key="visible", value=visible / 1e3, unit="1e3")
-    yield record(key="pairs a view", value=pairs / 1e6, unit="1e6")
-    rate, before = steady(timed(start, views, settings), settings.steps)
-    yield record(key="rate", value=rate, unit="views/s", better="higher", wanted=20)
-    yield record(key="a view", value=1e3 / rate / exp_ns, unit="ms per ns of exp", better="lower", margin=MARGIN)
-    yield record(key="compilation and start", value=before, unit="s", better="lower")
+    for how, places in ways():
+        record = functools.partial(Record, figure="whole_fit", case=f"two rooms, 688 x 384, {cores()} {how}")
+        yield record(key="gaussians a room", value=len(start.means) / 1e3, unit="1e3")
+        yield record(key="visible", value=visible / 1e3, unit="1e3")
+        yield record(key="pairs a view", value=pairs / 1e6, unit="1e6")
+        rate, before = steady(timed(start, views, settings, places), settings.steps)
+        yield record(key="rate", value=rate, unit="views/s", better="higher", wanted=20)
+        yield record(key="a view", value=1e3 / rate / exp_ns, unit="ms per ns of exp", better="lower", margin=MARGIN)
+        yield record(key="compilation and start", value=before, unit="s", better="lower")
+
+
+def ways() -> Iterator[tuple[str, dict]]:
+    """How rooms may be side by side, as arguments of `fit_scene`: in threads, and in processes where it has them."""
+    yield "threads", {"devices": jax.devices()[:1] * cores()}
+    if importlib.util.find_spec("wm.splat.room_worker") is not None:
+        from wm.splat.room_worker import room_workers
+
+        with room_workers(cores()) as workers:
+            yield "processes", {"workers": workers}
 
 
 def views_in(width: int, height: int, room: int) -> list[TrainingView]:
@@ -65,19 +76,16 @@ def seen(gaussians: Gaussians, views: Sequence[TrainingView]) -> tuple[float, fl
     return float(np.mean(visible)), float(np.mean(pairs))
 
 
-def timed(start: Gaussians, views, settings: FitSettings) -> list[tuple[float, int]]:
+def timed(start: Gaussians, views, settings: FitSettings, places: dict) -> list[tuple[float, int]]:
     """Seconds since the start, and the room, of every step."""
     began, stamps = time.perf_counter(), []
-    # a process for each core where fit_scene has them, else a thread
-    in_processes = "workers" in inspect.signature(fit_scene).parameters
-    placed = {"workers": cores()} if in_processes else {"devices": jax.devices()[:1] * cores()}
     result = fit_scene(
         [start] * ROOMS,
         views,
         settings=settings,
         key=jax.random.key(0),
         progress=lambda done, total, info: stamps.append((time.perf_counter() - began, info["room"])),
-        **placed,
+        **places,
     )
     assert not result.stopped, result.stopped
     return stamps

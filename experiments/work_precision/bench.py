@@ -2,6 +2,7 @@
 
 import dataclasses
 import importlib.util
+import os
 import pathlib
 import time
 from collections.abc import Callable, Mapping
@@ -9,6 +10,8 @@ from typing import Any
 
 import jax
 import numpy as np
+
+from wm.host import prepare_process
 
 EXPERIMENTS = pathlib.Path(__file__).parent.parent
 
@@ -20,6 +23,12 @@ def sibling(experiment: str, script: str) -> Any:
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def prepare_one_core() -> None:
+    """Holds this process to one core; to be called before JAX counts them."""
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    prepare_process()
 
 
 def median_ms(parts: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:

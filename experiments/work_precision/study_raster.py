@@ -7,14 +7,12 @@ what it costs is order: the far wall of the bench scene faces the camera, and it
 
 import dataclasses
 import functools
-import os
 from collections.abc import Iterator
 
 import bench
 import jax
 import numpy as np
 
-from wm.host import prepare_process
 from wm.schema import FitSettings, RasterSettings
 from wm.splat import WIDE, plan_tiles, project, rasterize
 from wm.splat._reference import render_reference
@@ -34,9 +32,8 @@ PANELS = [("step_ms", "rgb_rms", "log"), ("step_ms", "rgb_max", "log"), ("step_m
 
 
 def rows(tiny: bool, world) -> Iterator[dict]:
-    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # before JAX counts the cores
+    bench.prepare_one_core()
     speed = bench.sibling("splat_speed", "bench_scene")
-    prepare_process()
     n, width, height, repeats = (2000, 64, 48, 2) if tiny else (100_000, 688, 384, 15)
     case = Case(gaussians=speed.scene(n, 1.0), camera=speed.camera_of(width, height), repeats=repeats)
     exact = case.result(EXACT)
