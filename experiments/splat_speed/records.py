@@ -38,8 +38,7 @@ def write(records: Iterable[Record], file: TextIO = sys.stdout) -> None:
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(NAMES)
     for record in records:
-        row = dataclasses.asdict(record) | {"value": f"{record.value:.4g}"}
-        writer.writerow("" if row[name] is None else row[name] for name in NAMES)
+        writer.writerow(f"{x:.4g}" if isinstance(x, float) else x for x in dataclasses.astuple(record))  # None is empty
         file.flush()
 
 

@@ -20,7 +20,7 @@ from wm.geometry.camera import camera_center, camera_rays, make_camera
 from wm.geometry.raycast import RayHits
 from wm.types import Mesh
 
-PANELS = [("mrays_per_s", "depth_error_m", "log"), ("mrays_per_s", "leaks", "linear"), ("mrays_per_s", "other_face", "linear")]
+PANELS = [("mrays_per_s", "depth_error_m", "log"), ("mrays_per_s", "other_face", "linear")]
 
 
 def rows(tiny: bool, world: pathlib.Path) -> Iterator[dict]:
