@@ -2,6 +2,7 @@
 
 import dataclasses
 import importlib.util
+import os
 import pathlib
 import time
 from collections.abc import Callable, Mapping
@@ -10,16 +11,24 @@ from typing import Any
 import jax
 import numpy as np
 
+from wm.host import prepare_process
+
 EXPERIMENTS = pathlib.Path(__file__).parent.parent
 
 
-def speed_script(name: str) -> Any:
-    """The script of a sibling experiment as a module, for the scene it measures."""
-    spec = importlib.util.spec_from_file_location(name, EXPERIMENTS / name / "run.py")
+def sibling(experiment: str, script: str) -> Any:
+    """A script of another experiment as a module, for the scene it measures."""
+    spec = importlib.util.spec_from_file_location(f"{experiment}_{script}", EXPERIMENTS / experiment / f"{script}.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def prepare_one_core() -> None:
+    """Holds this process to one core; to be called before JAX counts them."""
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    prepare_process()
 
 
 def median_ms(parts: Mapping[str, Callable[[], Any]], repeats: int) -> dict[str, float]:

@@ -13,9 +13,8 @@ import bench
 import jax
 import numpy as np
 
-from wm.host import prepare_process
 from wm.schema import FitSettings, RasterSettings
-from wm.splat import plan_tiles, project, rasterize
+from wm.splat import WIDE, plan_tiles, project, rasterize
 from wm.splat._reference import render_reference
 
 EXACT = RasterSettings(alpha_min=1e-6, transmittance_min=0.0)
@@ -33,20 +32,22 @@ PANELS = [("step_ms", "rgb_rms", "log"), ("step_ms", "rgb_max", "log"), ("step_m
 
 
 def rows(tiny: bool, world) -> Iterator[dict]:
-    speed = bench.speed_script("rasterizer_speed")
-    prepare_process()
+    bench.prepare_one_core()
+    speed = bench.sibling("splat_speed", "bench_scene")
     n, width, height, repeats = (2000, 64, 48, 2) if tiny else (100_000, 688, 384, 15)
     case = Case(gaussians=speed.scene(n, 1.0), camera=speed.camera_of(width, height), repeats=repeats)
     exact = case.result(EXACT)
-    yield {"vary": "twin", "value": "float64", **twin(speed)}
+    yield {"vary": "twin", "value": "float64", "default": False, **twin(speed)}
     for name, values in SWEEPS.items():
         for value in values:
             settings = dataclasses.replace(DEFAULT, **{name: value})
-            yield {"vary": name, "value": _label(value), **errors(case.result(settings), exact), **case.times(settings, 1)}
+            labels = {"vary": name, "value": _label(value), "default": settings == DEFAULT}
+            yield labels | errors(case.result(settings), exact) | case.times(settings, 1)
     for steps in REUSE:
         drifted = case.drifted(steps - 1)
         fresh, stale = drifted.result(DEFAULT), drifted.result(DEFAULT, planned=case.gaussians)
-        yield {"vary": "plan reuse", "value": steps, **errors(stale, fresh), **case.times(DEFAULT, steps)}
+        labels = {"vary": "plan reuse", "value": steps, "default": steps == 1}
+        yield labels | errors(stale, fresh) | case.times(DEFAULT, steps)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -99,10 +100,10 @@ class Case:
 
 
 _project = jax.jit(project, static_argnums=2)
-_shoot = jax.jit(rasterize, static_argnums=(2, 3, 4))
+_shoot = jax.jit(rasterize, static_argnums=(2, 3, 4), compiler_options=WIDE)
 
 
-@functools.partial(jax.jit, static_argnums=(2, 3, 4))
+@functools.partial(jax.jit, static_argnums=(2, 3, 4), compiler_options=WIDE)
 def _pull(projected, plan, width: int, height: int, settings: RasterSettings):
     """Derivative of a fixed random weighting of the colours."""
     weights = jax.random.normal(jax.random.key(1), (height, width, 3))

@@ -31,7 +31,8 @@ def rows(tiny: bool, world: pathlib.Path) -> Iterator[dict]:
             )
             times.append((time.perf_counter() - started) * 1e3)
         size = (atlas.color.nbytes + atlas.weight.nbytes) / 2**20
-        yield {"vary": "texel", "value": texel, "view_ms": float(np.median(times)), "mib": size, **errors(atlas, room, settings)}
+        labels = {"vary": "texel", "value": texel, "default": settings == TextureSettings()}
+        yield labels | {"view_ms": float(np.median(times)), "mib": size} | errors(atlas, room, settings)
 
 
 def errors(atlas, room: bench.Room, settings: TextureSettings) -> dict[str, float]:

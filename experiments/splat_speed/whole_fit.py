@@ -1,0 +1,102 @@
+"""Views a second of a fit of two rooms with about 100k visible gaussians at 688 x 384 on all cores, all costs of a step included.
+
+The rooms are those of tests/splat/rooms.py, one like the other; what counts are the steps between the moment from which both are
+under way, everything compiled, and the end of the first. What went before, compilation foremost, is a row of its own.
+"""
+
+import dataclasses
+import functools
+import importlib.util
+import sys
+import time
+from collections.abc import Iterator, Sequence
+
+import jax
+import numpy as np
+from bench_scene import exponential_ns
+from records import Record, write
+
+from tests.splat.rooms import views_of
+from wm.host import cores, prepare_process
+from wm.schema import FitSettings, RasterSettings
+from wm.splat import TrainingView, fit_scene, initial_gaussians, plan_tiles
+from wm.splat.step import project_view
+from wm.types import Gaussians
+
+ROOMS = 2
+STARTED = 3
+"""Steps of every room after which all are compiled."""
+
+MARGIN = 0.15
+FULL = FitSettings(spacing=0.0171, detail_spacing=0.0171, steps=60, curve_points=0)
+TINY = dataclasses.replace(FULL, spacing=0.2, detail_spacing=0.2, steps=8)
+
+
+def records(tiny: bool) -> Iterator[Record]:
+    prepare_process()
+    size, settings = ((64, 48), TINY) if tiny else ((688, 384), FULL)
+    exp_ns = exponential_ns(15)
+    views = functools.partial(views_in, *size)
+    start = initial_gaussians(views(0), settings=settings, rng=np.random.default_rng(0))
+    visible, pairs = seen(start, views(0))
+    for how, places in ways():
+        record = functools.partial(Record, figure="whole_fit", case=f"two rooms, 688 x 384, {cores()} {how}")
+        yield record(key="gaussians a room", value=len(start.means) / 1e3, unit="1e3")
+        yield record(key="visible", value=visible / 1e3, unit="1e3")
+        yield record(key="pairs a view", value=pairs / 1e6, unit="1e6")
+        rate, before = steady(timed(start, views, settings, places), settings.steps)
+        yield record(key="rate", value=rate, unit="views/s", better="higher", wanted=20)
+        yield record(key="a view", value=1e3 / rate / exp_ns, unit="ms per ns of exp", better="lower", margin=MARGIN)
+        yield record(key="compilation and start", value=before, unit="s", better="lower")
+
+
+def ways() -> Iterator[tuple[str, dict]]:
+    """How rooms may be side by side, as arguments of `fit_scene`: in threads, and in processes where it has them."""
+    yield "threads", {"devices": jax.devices()[:1] * cores()}
+    if importlib.util.find_spec("wm.splat.room_worker") is not None:
+        from wm.splat.room_worker import room_workers
+
+        with room_workers(cores()) as workers:
+            yield "processes", {"workers": workers}
+
+
+def views_in(width: int, height: int, room: int) -> list[TrainingView]:
+    """Sixteen views of a room, which see no other."""
+    return [dataclasses.replace(view, room=room) for view in views_of(count=16, width=width, height=height)]
+
+
+def seen(gaussians: Gaussians, views: Sequence[TrainingView]) -> tuple[float, float]:
+    """How many gaussians a view sees, and how many (gaussian, pixel) pairs it lists, in the mean."""
+    visible, pairs, settings = [], [], RasterSettings()
+    for view in views:
+        projected = project_view(gaussians, view.camera, raster=settings)
+        plan = plan_tiles(projected, view.camera.width, view.camera.height, settings)
+        visible.append((np.asarray(projected.opacity) > 0).sum())
+        pairs.append(plan.count.sum() * settings.tile**2)
+    return float(np.mean(visible)), float(np.mean(pairs))
+
+
+def timed(start: Gaussians, views, settings: FitSettings, places: dict) -> list[tuple[float, int]]:
+    """Seconds since the start, and the room, of every step."""
+    began, stamps = time.perf_counter(), []
+    result = fit_scene(
+        [start] * ROOMS,
+        views,
+        settings=settings,
+        key=jax.random.key(0),
+        progress=lambda done, total, info: stamps.append((time.perf_counter() - began, info["room"])),
+        **places,
+    )
+    assert not result.stopped, result.stopped
+    return stamps
+
+
+def steady(stamps: Sequence[tuple[float, int]], steps: int) -> tuple[float, float]:
+    """Steps a second while all rooms are under way, and the seconds before that."""
+    by_room = [[at for at, room in stamps if room == k] for k in range(ROOMS)]
+    begin, end = max(times[STARTED - 1] for times in by_room), min(times[steps - 1] for times in by_room)
+    return sum(begin < at <= end for at, _ in stamps) / (end - begin), begin
+
+
+if __name__ == "__main__":
+    write(records("--tiny" in sys.argv))
