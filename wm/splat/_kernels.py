@@ -12,6 +12,7 @@ The kernels are Triton's, which Pallas deprecates from JAX 0.11 on; its successo
 """
 
 import functools
+import warnings
 from typing import Any, NamedTuple
 
 import jax
@@ -24,6 +25,8 @@ from wm.splat._axes import has_slope
 from wm.splat._pairs import DEPTH, GEOMETRY, Composite, alpha_at, gradient_columns, slope, weight
 from wm.splat._tile_sums import POWERS
 from wm.splat.tiles import TilePlan
+
+warnings.filterwarnings("ignore", message="The Pallas Triton backend is deprecated")  # a caller can do nothing about it
 
 UNROLLED = 8
 """Gaussians between two looks at whether any pixel is open; their rows are fetched while the first of them is composited."""
