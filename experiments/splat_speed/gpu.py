@@ -19,7 +19,6 @@ from wm.splat import fit, initial_gaussians, render
 
 CASES = (
     ("100k, 688 x 384", 100_000, 688, 384),
-    ("300k, 1376 x 768", 300_000, 1376, 768),
     ("1M, 1376 x 768", 1_000_000, 1376, 768),
 )
 WALKS = (("kernels", {}), ("loops", {}), ("loops, all tiles in a block", {"block": 1 << 20}))

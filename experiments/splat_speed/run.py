@@ -24,7 +24,7 @@ ALL = (*FIGURES, "gpu")
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("figures", nargs="*", default=FIGURES, metavar="figure", help=f"of {', '.join(ALL)}; if none, all but gpu")
+    parser.add_argument("figures", nargs="*", default=FIGURES, metavar="figure", help=f"of {', '.join(ALL)}; none: all but gpu")
     parser.add_argument("--gate", action="store_true", help="compare with result.csv and leave it")
     parser.add_argument("--tiny", action="store_true", help="small sizes; nothing is written")
     arguments = parser.parse_args()

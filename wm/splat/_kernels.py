@@ -5,8 +5,8 @@ ends or every pixel is finished. Where the loops of _loops.py launch a dozen ker
 memory between them, here transmittance and features stay in registers from the first gaussian to the last.
 
 The derivative by a gaussian is a sum over the pixels of each tile that lists it, reduced within the program, and over those
-tiles, added in memory. The latter sums come in no fixed order: derivatives repeat to rounding, not to the bit, as XLA's own
-scatters do on a GPU. Images repeat to the bit.
+tiles. The latter is not left to atomic additions, which come in any order: programs write a row for every entry of the lists, and
+a second kernel adds the rows of a gaussian as they are listed. So derivatives, like images, repeat to the bit.
 
 The kernels are Triton's, which Pallas deprecates from JAX 0.11 on; its successor there knows Hopper and later GPUs only.
 """
@@ -32,7 +32,7 @@ UNROLLED = 8
 """Gaussians between two looks at whether any pixel is open; their rows are fetched while the first of them is composited."""
 
 LANES = 16
-"""Columns of the derivative in memory, a power of two as Triton asks of vectors; those beyond the table's are 0."""
+"""Length of the vector that holds a row of the table, a power of two as Triton asks."""
 
 
 def forward(table, plan: TilePlan, *, columns: int, settings: RasterSettings, interpret: bool = False) -> Composite:
@@ -63,18 +63,34 @@ def backward(
 ):
     """The derivative by the table, from what `forward` returned and the derivative by it."""
     ids, tile, start, _ = _lists(plan)
+    final, by_final = ((x.transmittance, x.features) for x in (composite, cotangent))
     call = pl.pallas_call(
         functools.partial(_backward, columns=columns, settings=settings),
         grid=(len(tile),),
-        out_shape=jax.ShapeDtypeStruct((len(table), LANES), jnp.float32),
+        out_shape=jax.ShapeDtypeStruct((len(ids), table.shape[1]), jnp.float32),
         input_output_aliases={0: 0},
         compiler_params=_ONE_WARP,
         interpret=interpret,
         name="composite_derivative",
     )
-    final, by_final = ((x.transmittance, x.features) for x in (composite, cotangent))
-    nothing = jnp.zeros((len(table), LANES), jnp.float32)
-    return call(nothing, table, ids, tile, start, composite.length, *final, *by_final)[:, : table.shape[1]]
+    nothing = jnp.zeros((len(ids), table.shape[1]), jnp.float32)  # of an entry that nothing visits
+    rows = call(nothing, table, ids, tile, start, composite.length, *final, *by_final)
+    return _sums_by_gaussian(rows, ids, len(table), interpret)
+
+
+def _sums_by_gaussian(rows, ids, n: int, interpret: bool):
+    """The sum of the rows of every gaussian's entries, in the order of the entries; 0 for the last, the padding's."""
+    entries = jnp.argsort(ids, stable=True)
+    count = jnp.zeros(n, jnp.int32).at[ids].add(1).at[-1].set(0)
+    call = pl.pallas_call(
+        _sum_rows,
+        grid=(n,),
+        out_shape=jax.ShapeDtypeStruct((n, rows.shape[1]), jnp.float32),
+        compiler_params=_ONE_WARP,
+        interpret=interpret,
+        name="sum_rows",
+    )
+    return call(rows, entries, jnp.cumsum(count) - count, count)
 
 
 _ONE_WARP = plgpu.CompilerParams(num_warps=1)  # a program's sums over its pixels then need no shared memory
@@ -109,7 +125,7 @@ def _forward(table, ids, tile, start, count, t_out, F_out, length_out, *, column
     length_out[lane] = jnp.minimum(visited, walk.count)
 
 
-def _backward(_, table, ids, tile, start, length, t_end, F_end, g_t, g_F, gradient, *, columns: int, settings: RasterSettings):
+def _backward(_, table, ids, tile, start, length, t_end, F_end, g_t, g_F, rows, *, columns: int, settings: RasterSettings):
     lane, features = pl.program_id(0), F_end.shape[1]
     walk = _Walk(table, ids, tile[lane], start[lane], length[lane], columns, settings)
     by_features = [g_F[lane, j, :] for j in range(features)]
@@ -128,11 +144,22 @@ def _backward(_, table, ids, tile, start, length, t_end, F_end, g_t, g_F, gradie
         sums = [jnp.sum(w * g) for g in by_features]
         derivatives = gradient_columns(gaussian.place, gaussian.root, gaussian.tilt, moments, sums, settings)
         row = functools.reduce(lambda row, jd: jnp.where(column == jd[0], jd[1], row), enumerate(derivatives), jnp.zeros(LANES))
-        plgpu.atomic_add(gradient, (gaussian.id, column), row)
+        plgpu.store(rows.at[walk.start + i, column], row, mask=column < len(derivatives))
         return t - w, rest
 
     rest = sum((F_end[lane, j, :] * g for j, g in enumerate(by_features)), t_end[lane, :] * g_t[lane, :])
     jax.lax.fori_loop(0, walk.count, step, (jnp.ones_like(u), rest))
+
+
+def _sum_rows(rows, entries, start, count, sums):
+    gaussian, column = pl.program_id(0), jnp.arange(LANES)
+    mask = column < rows.shape[1]
+
+    def step(k, total):
+        return total + plgpu.load(rows.at[entries[start[gaussian] + k], column], mask=mask, other=0.0)
+
+    total = jax.lax.fori_loop(0, count[gaussian], step, jnp.zeros(LANES))
+    plgpu.store(sums.at[gaussian, column], total, mask=mask)
 
 
 class _Walk:
