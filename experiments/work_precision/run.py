@@ -50,10 +50,11 @@ def draw(rows: list[dict], panels: list[tuple[str, str, str]], path: pathlib.Pat
     matplotlib.use("Agg")
     from matplotlib.figure import Figure
 
+    colors = matplotlib.colormaps["tab20"].colors  # each full one is followed by a pale one
     figure = Figure(figsize=(5.2 * len(panels), 4.2), layout="constrained")
     for k, (x, y, scale) in enumerate(panels):
         axes = figure.add_subplot(1, len(panels), k + 1)
-        axes.set_prop_cycle(color=matplotlib.colormaps["tab20"].colors)
+        axes.set_prop_cycle(color=colors[::2] + colors[1::2])
         drawn = [row for row in rows if x in row and y in row and (row[y] > 0 or scale == "linear")]
         for vary in dict.fromkeys(row["vary"] for row in drawn):
             points = [row for row in drawn if row["vary"] == vary]
