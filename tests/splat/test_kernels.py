@@ -53,6 +53,13 @@ def test_a_finished_tile_is_left_and_what_is_behind_it_has_no_derivative():
     assert not np.asarray(derivative.color)[:, behind].any() and np.asarray(derivative.color).any()
 
 
+def test_nothing_to_show():
+    projected = jit_project(to_float32(cloud(0)), camera())
+    plan, seen = plan_tiles(projected, *SIZE), to_float32(cotangent(camera()))
+    image, derivative = image_and_derivative(projected, plan, seen, with_(TILES[0], "interpreted"))
+    assert not np.asarray(image.alpha).any() and derivative.mean2d.shape == (2, 0)
+
+
 def test_views_side_by_side_are_those_one_by_one():
     parts = [jit_project(to_float32(cloud()), camera(seed=seed)) for seed in (1, 2)]
     together = jax.tree.map(lambda *x: np.stack(x), *parts)
