@@ -80,6 +80,10 @@ class VerifySettings:
     max_attempts: int = 8
 
 
+COMPOSITORS = ("auto", "loops", "kernels", "interpreted")
+PLANNERS = ("auto", "host", "traced")
+
+
 @dataclass(kw_only=True, unsafe_hash=True)
 class RasterSettings:
     """The constants of the rasterizer (design.md section 5); static under jit."""
@@ -93,7 +97,8 @@ class RasterSettings:
     depth: bool = True  # False leaves depth out of the render (it is 0 then) and of its cost
     slanted: bool = True  # depth varies over a gaussian's ellipse as its surface does; False: that of its centre, as in 3DGS
     antialias: bool = False  # opacities fall by what the blur adds to the area, so that small gaussians do not grow brighter
-    planner: str = "auto"  # auto | host | traced: where tiles are planned; auto is traced inside jit on accelerators
+    compositor: str = "auto"  # COMPOSITORS: kernels run on NVIDIA GPUs, interpreted ones and loops anywhere; auto is the fastest
+    planner: str = "auto"  # PLANNERS: where tiles are planned; auto is on the host for a CPU, traced (in the graph) elsewhere
     tile: int = 8
     chunk: int = 8
     block: int = 64

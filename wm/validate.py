@@ -10,11 +10,12 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from wm.errors import InputError
-from wm.schema import RunConfig
+from wm.schema import COMPOSITORS, PLANNERS, RunConfig
 
 CHOICES: Mapping[str, tuple[str, ...]] = {
     "condition.objects": ("textured", "boxes", "none"),
-    "raster.planner": ("auto", "host", "traced"),
+    "raster.compositor": COMPOSITORS,
+    "raster.planner": PLANNERS,
     "fit.init": ("flat", "isotropic", "random"),
 }
 

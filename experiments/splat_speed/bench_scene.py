@@ -15,7 +15,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from wm.schema import RasterSettings
-from wm.splat import WIDE, Projected, TilePlan, plan_tiles, project, rasterize
+from wm.splat import WIDE, Projected, TilePlan, project, rasterize
+from wm.splat.planner import plan_outside_jit
 from wm.types import Camera, Gaussians, Render
 
 ROOM = np.array([6.0, 4.0, 2.7])
@@ -77,8 +78,7 @@ class Step:
         return _project(self.gaussians, self.camera, settings=self.settings)
 
     def plan(self, projected: Projected) -> TilePlan:
-        host = jax.tree.map(np.asarray, projected)
-        return plan_tiles(host, self.camera.width, self.camera.height, self.settings)
+        return plan_outside_jit(projected, self.camera.width, self.camera.height, self.settings)
 
     def forward(self, projected: Projected, plan: TilePlan) -> Render:
         return _forward(projected, plan, width=self.camera.width, height=self.camera.height, settings=self.settings)

@@ -5,7 +5,6 @@ A compilation costs more than everything else here, so the scenes share a few sh
 
 import dataclasses
 import functools
-import importlib
 
 import chex
 import jax
@@ -31,7 +30,7 @@ from tests.splat.scenes import (
     worst,
 )
 from wm.schema import RasterSettings
-from wm.splat import plan_tiles, project, rasterize, render
+from wm.splat import plan_tiles, planner, project, rasterize, render
 from wm.splat._reference import render_reference
 from wm.splat.losses import depth_loss, normal_loss, photometric_terms
 from wm.types import Camera, Gaussians, Render
@@ -291,9 +290,8 @@ def test_a_plan_is_data():
 
 
 def test_a_view_too_full_for_a_traced_plan_says_so(monkeypatch):
-    module = importlib.import_module("wm.splat.render")  # the package's name `render` is the function
-    monkeypatch.setattr(module, "TRACED_PER_GAUSSIAN", 0)
-    monkeypatch.setattr(module, "TRACED_PER_TILE", 1)
+    monkeypatch.setattr(planner, "TRACED_PER_GAUSSIAN", 0)
+    monkeypatch.setattr(planner, "TRACED_PER_TILE", 1)
     with pytest.raises(Exception, match="outside jit"):
         jax.block_until_ready(jax.jit(lambda g: render(g, camera()).alpha)(to_float32(cloud(degree=3))))
 

@@ -1,7 +1,6 @@
 """The plan made in the graph has the lists of the plan made on the host, and says when it has no room."""
 
 import functools
-import importlib
 
 import jax
 import jax.numpy as jnp
@@ -13,7 +12,7 @@ from hypothesis import strategies as st
 from tests.splat.scenes import KINDS, camera, cloud, jit_project, to_float32, troubled
 from tests.splat.test_tiles import lists
 from wm.schema import RasterSettings
-from wm.splat import plan_tiles, plan_tiles_traced, render
+from wm.splat import plan_tiles, plan_tiles_on_device, plan_tiles_traced, planner, render
 from wm.splat.tiles_traced import _unrolled
 
 SEEDS = st.integers(0, 10**6)
@@ -47,6 +46,23 @@ def test_nothing_to_show(n):
     assert int(found.needed) == 0 and (np.asarray(found.plan.ids) == n).all() and not np.asarray(found.plan.count).any()
 
 
+def test_planned_on_the_device_a_view_is_counted_first():
+    projected = jit_project(cloud(40), camera(40, 27))
+    wanted = plan_tiles(projected, 40, 27, CONSTANTS)
+    plan = plan_tiles_on_device(projected, 40, 27, CONSTANTS, capacity=8)  # too little: it grows
+    mine, hosts = lists(jax.tree.map(np.asarray, plan), 20), lists(wanted, 20)
+    assert {tile: ids.tolist() for tile, ids in mine.items()} == {tile: ids.tolist() for tile, ids in hosts.items()}
+    assert 8 < len(plan.ids) < 40 * 20
+    assert len(plan_tiles_on_device(projected, 40, 27, CONSTANTS, capacity=5000).ids) == 5000
+
+
+def test_more_entries_than_32_bits_count_are_refused_on_the_device():
+    everywhere = jax.tree.map(lambda x: jnp.repeat(x[..., :1], 2**13, axis=-1), jit_project(cloud(1, opaque=8.0), camera(8, 8)))
+    everywhere = everywhere.replace(extent=jnp.full((2, 2**13), 1e6), opacity=jnp.ones(2**13))
+    with pytest.raises(ValueError, match="smaller gaussians"):
+        plan_tiles_on_device(everywhere, 8 * 2**9, 8 * 2**9, CONSTANTS)
+
+
 def test_room_is_counted_even_where_32_bits_are_not_enough():
     which, within, needed = jax.jit(_unrolled, static_argnums=1)(jnp.full(24, 2**27, jnp.int32), 8)
     assert int(needed) == 2**31 - 1  # 3.2e9
@@ -67,7 +83,6 @@ def test_the_image_is_the_same(seed, kinds):
 
 
 def test_a_view_without_room_is_refused(monkeypatch):
-    module = importlib.import_module("wm.splat.render")  # the package's name `render` is the function
-    monkeypatch.setattr(module, "_capacity", lambda *_: 3)
+    monkeypatch.setattr(planner, "_capacity", lambda *_: 3)
     with pytest.raises(Exception, match=r"room for 3 .* this view has"):
         jax.block_until_ready(jax.jit(lambda g: render(g, camera(22, 13), settings=TRACED).alpha)(to_float32(cloud(degree=3))))

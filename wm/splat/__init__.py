@@ -1,23 +1,25 @@
 """Gaussian splatting in JAX: from gaussians and a camera to an image, and back to better gaussians.
 
-    render.py     render: one call from gaussians to an image, in and out of jit
-    project.py    project -> Projected: ellipses on the image plane
-    tiles.py      plan_tiles -> TilePlan: which gaussians touch which tiles, front to back (host); tiles_traced.py: in the graph
-    composite.py  rasterize: alpha compositing over a plan, with its own derivative
-    checks.py     what is wrong with the arguments
-    harmonics.py  the colour's dependence on direction
-    _reference.py render_reference: the slow float64 twin of render
+render.py     render: one call from gaussians to an image, in and out of jit
+project.py    project -> Projected: ellipses on the image plane
+tiles.py      plan_tiles -> TilePlan: which gaussians touch which tiles, front to back (host); tiles_traced.py: in the graph;
+              planner.py: which of the two
+composite.py  rasterize: alpha compositing over a plan, with its own derivative; _loops.py, _kernels.py: the walk, for XLA
+              anywhere and for NVIDIA GPUs; _pairs.py: one gaussian at one pixel
+checks.py     what is wrong with the arguments
+harmonics.py  the colour's dependence on direction
+_reference.py render_reference: the slow float64 twin of render
 
-    training.py   TrainingView: what a fit is shown
-    cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
-    ssim.py       ssim, with its own derivative; losses.py: what a fit minimises
-    step.py       one step; batch.py: the views of a step, over devices; frozen.py: what a fit renders and does not move
-    room_fit.py   the loop of steps; room_state.py, checkpoint.py: where it stands; padding.py: the shapes that steps share
-    watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
-    exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
-    fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
-    metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
-    ply.py        load_ply, save_ply
+training.py   TrainingView: what a fit is shown
+cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
+ssim.py       ssim, with its own derivative; losses.py: what a fit minimises
+step.py       one step; batch.py: the views of a step, over devices; frozen.py: what a fit renders and does not move
+room_fit.py   the loop of steps; room_state.py, checkpoint.py: where it stands; padding.py: the shapes that steps share
+watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
+exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
+fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
+metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
+ply.py        load_ply, save_ply
 """
 
 from wm.splat._wide import WIDE
@@ -33,7 +35,7 @@ from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, rep
 from wm.splat.scene_fit import SceneFit, fit_scene
 from wm.splat.ssim import ssim, ssim_map
 from wm.splat.tiles import TilePlan, plan_tiles, plan_views
-from wm.splat.tiles_traced import TracedPlan, plan_tiles_traced
+from wm.splat.tiles_traced import TracedPlan, plan_tiles_on_device, plan_tiles_traced
 from wm.splat.training import TrainingView
 
 __all__ = [
@@ -61,6 +63,7 @@ __all__ = [
     "one_surface",
     "overlap",
     "plan_tiles",
+    "plan_tiles_on_device",
     "plan_tiles_traced",
     "plan_views",
     "project",

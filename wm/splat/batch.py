@@ -15,6 +15,7 @@ import numpy as np
 from wm.schema import RasterSettings
 from wm.splat.frozen import join_columns
 from wm.splat.padding import Capacity, host, plan_with
+from wm.splat.planner import plans_on_host
 from wm.splat.project import Projected
 from wm.splat.step import Moving, Rates, StepTerms, Target, project_view, rasterize_view, view_gradient
 from wm.splat.training import TrainingView
@@ -66,7 +67,8 @@ class Compiled:
 
     def _planned(self, gaussians: Gaussians, seen: SeenView, target: Target):
         camera = target.camera
-        projected = join_columns(host(project_view(gaussians, camera, raster=self.raster)), seen.frozen)
+        own = project_view(gaussians, camera, raster=self.raster)
+        projected = join_columns(host(own) if plans_on_host(own, self.raster) else own, seen.frozen)
         return projected, plan_with(projected, camera.width, camera.height, self.raster, self.capacity)
 
 

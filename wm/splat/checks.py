@@ -14,7 +14,7 @@ import numpy as np
 from jax.core import Tracer
 from jax.experimental import checkify
 
-from wm.schema import RasterSettings
+from wm.schema import COMPOSITORS, PLANNERS, RasterSettings
 from wm.types import Camera, Gaussians
 
 DEGREES = {1: 0, 4: 1, 9: 2, 16: 3}
@@ -49,6 +49,11 @@ def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) 
             f"settings.alpha_min {settings.alpha_min!r} and alpha_max {settings.alpha_max!r} are out of order; "
             "1e-30 <= alpha_min < alpha_max <= 1 would be right"
         )
+    for name, known in (("compositor", COMPOSITORS), ("planner", PLANNERS)):
+        if getattr(settings, name) not in known:
+            raise ValueError(f"settings.{name} {getattr(settings, name)!r} is unknown; one of {', '.join(known)} would be right")
+    if settings.compositor in ("kernels", "interpreted") and settings.tile.bit_count() != 1:
+        raise ValueError(f"settings.tile {settings.tile} does not suit kernels; a power of two would be right")
 
 
 def check_background(background: Any, camera: Camera) -> None:

@@ -8,8 +8,9 @@ import jax
 import numpy as np
 
 from wm.schema import RasterSettings
+from wm.splat.planner import plan_outside_jit
 from wm.splat.project import Projected
-from wm.splat.tiles import TilePlan, plan_tiles
+from wm.splat.tiles import TilePlan
 from wm.types import Gaussians
 
 CULLED_LOGIT = -50.0
@@ -53,9 +54,9 @@ class Capacity:
 def plan_with(projected: Projected, width: int, height: int, raster: RasterSettings, capacity: Capacity) -> TilePlan:
     """The plan of one image, at the shared capacity."""
     room = capacity.entries
-    plan = plan_tiles(projected, width, height, raster, capacity=room)
+    plan = plan_outside_jit(projected, width, height, raster, capacity=room)
     if room is None:
-        plan = plan_tiles(projected, width, height, raster, capacity=int(len(plan.ids) * HEADROOM))
+        plan = plan_outside_jit(projected, width, height, raster, capacity=int(len(plan.ids) * HEADROOM))
     capacity.grow(len(plan.ids))
     return plan
 

@@ -1,27 +1,15 @@
-"""One call from gaussians to an image: project, plan, rasterize.
-
-Outside jit the plan is made on the host between two compiled passes. Inside, where shapes are fixed before a view is known, it
-has room for a fixed number of entries: on a CPU a callback to the host makes it, elsewhere the graph does (tiles_traced.py).
-"""
-
-import functools
+"""One call from gaussians to an image: project, plan (planner.py), rasterize."""
 
 import jax
-import jax.numpy as jnp
-import numpy as np
 from jax.core import Tracer
 
 from wm.schema import RasterSettings
 from wm.splat._wide import jit_wide
 from wm.splat.checks import check_background, check_camera, check_types, check_values
 from wm.splat.composite import rasterize
-from wm.splat.project import DEFAULTS, Projected, project
-from wm.splat.tiles import TilePlan, plan_tiles
-from wm.splat.tiles_traced import plan_tiles_traced
+from wm.splat.planner import plan_inside_jit, plan_outside_jit
+from wm.splat.project import DEFAULTS, project
 from wm.types import Background, Camera, Gaussians, Render
-
-TRACED_PER_GAUSSIAN, TRACED_PER_TILE = 16, 512
-"""Entries that a plan made under jit has room for; shapes are fixed there before anything is known about the view."""
 
 _project = jax.jit(project, static_argnames="settings")  # wide vectors gain nothing here
 _rasterize = jit_wide(rasterize, ("width", "height", "settings"))
@@ -72,72 +60,6 @@ def render(
     size = (camera.width, camera.height)
     check_camera(camera)
     projected = _project(gaussians, camera, settings=settings)
-    if any(isinstance(x, Tracer) for x in jax.tree.leaves(projected)):
-        plan = _plan_traced(jax.lax.stop_gradient(projected), *size, settings)
-    else:
-        plan = _plan_eager(projected, *size, settings)
+    traced = any(isinstance(x, Tracer) for x in jax.tree.leaves(projected))
+    plan = (plan_inside_jit if traced else plan_outside_jit)(projected, *size, settings)
     return _rasterize(projected, plan, *size, settings=settings, background=background)
-
-
-def _plan_eager(projected: Projected, width: int, height: int, settings: RasterSettings) -> TilePlan:
-    if settings.planner != "traced":
-        return plan_tiles(projected, width, height, settings)
-    return _plan_in_graph_jitted(projected, width, height, settings)
-
-
-def _plan_traced(projected: Projected, width: int, height: int, settings: RasterSettings) -> TilePlan:
-    planners = {
-        name: functools.partial(plan, width=width, height=height, settings=settings)
-        for name, plan in (("host", _plan_by_callback), ("traced", _plan_in_graph))
-    }
-    if settings.planner == "auto":
-        return jax.lax.platform_dependent(projected, cpu=planners["host"], default=planners["traced"])
-    return planners[settings.planner](projected)
-
-
-def _capacity(n: int, width: int, height: int, settings: RasterSettings) -> int:
-    tiles = -(-width // settings.tile) * -(-height // settings.tile)
-    return max(min(n * tiles, TRACED_PER_GAUSSIAN * n + TRACED_PER_TILE * tiles), 1)
-
-
-def _plan_by_callback(projected: Projected, width: int, height: int, settings: RasterSettings) -> TilePlan:
-    tiles = -(-width // settings.tile) * -(-height // settings.tile)
-    capacity = _capacity(projected.opacity.shape[0], width, height, settings)
-    lanes = min(settings.block, tiles)
-    shapes = {"ids": (capacity,), "slot": (tiles,)} | dict.fromkeys(("tile", "start", "count"), (-(-tiles // lanes), lanes))
-    result = TilePlan(**{name: jax.ShapeDtypeStruct(shape, np.int32) for name, shape in shapes.items()})
-    plan = functools.partial(_plan_within, width=width, height=height, settings=settings, capacity=capacity)
-    return jax.pure_callback(plan, result, projected, vmap_method="sequential")
-
-
-def _plan_within(projected: Projected, *, width: int, height: int, settings: RasterSettings, capacity: int) -> TilePlan:
-    plan = plan_tiles(projected, width, height, settings, capacity=capacity)
-    _refuse(plan.count.sum(), capacity)
-    return plan
-
-
-def _plan_in_graph(projected: Projected, width: int, height: int, settings: RasterSettings) -> TilePlan:
-    capacity = _capacity(projected.opacity.shape[0], width, height, settings)
-    traced = plan_tiles_traced(projected, width, height, settings, capacity=capacity)
-
-    def complain(needed):
-        return jax.pure_callback(
-            functools.partial(_refuse, capacity=capacity), jax.ShapeDtypeStruct((), np.int32), needed, vmap_method="sequential"
-        )
-
-    # the host hears of it only when there is no room, so that no device waits for it and several devices do not deadlock
-    nothing = jax.lax.cond(traced.needed > capacity, complain, jnp.zeros_like, traced.needed)
-    return traced.plan.replace(ids=traced.plan.ids + nothing)
-
-
-_plan_in_graph_jitted = jax.jit(_plan_in_graph, static_argnums=(1, 2, 3))
-
-
-def _refuse(needed, capacity: int):
-    """Raises unless a plan has room for what it needs; else 0."""
-    if needed > capacity:
-        raise ValueError(
-            f"render under jit has room for {capacity} (gaussian, tile) entries and this view has {int(needed)}: plan it "
-            "outside jit (project, plan_tiles, rasterize), which has no limit"
-        )
-    return np.int32(0)

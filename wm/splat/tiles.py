@@ -75,7 +75,7 @@ def plan_tiles(
     matrix = coo_array((np.ones(len(ids), np.int8), (tile, ids)), shape=(columns * rows, len(depth) + 1))
     matrix.has_canonical_format = True
     lists = matrix.tocsr()
-    padded = np.full(_capacity(len(ids), capacity), len(depth), np.int32)
+    padded = np.full(padded_capacity(len(ids), capacity), len(depth), np.int32)
     padded[: len(ids)] = lists.indices
     return TilePlan(ids=padded, **_blocks(np.diff(lists.indptr), settings.block))
 
@@ -97,6 +97,14 @@ def plan_views(projected: Projected, width: int, height: int, settings: RasterSe
     n = on_host.opacity.shape[1]
     ids = [np.pad(plan.ids, (0, capacity - len(plan.ids)), constant_values=n) for plan in plans]
     return jax.tree.map(lambda *leaves: np.stack(leaves), *(dataclasses.replace(plan, ids=row) for plan, row in zip(plans, ids)))
+
+
+def padded_capacity(entries: int, wanted: int | None) -> int:
+    """Room for so many entries: what is wanted (None: BASE), grown in steps of x1.5 while it does not suffice."""
+    size = BASE if wanted is None else max(wanted, 1)
+    while size < entries:
+        size = math.ceil(size * GROWTH)
+    return size
 
 
 def _front_to_back(depth, visible):
@@ -128,13 +136,6 @@ def _columns_touched(gaussian, row, terms, width: int, tile: int):
         left, right = chord(np.take(terms, gaussian[part], axis=1), row[part], tile, np)
         first[part], spans[part] = tile_span(left, right, width, tile, np)
     return first, spans
-
-
-def _capacity(entries: int, wanted: int | None) -> int:
-    size = BASE if wanted is None else max(wanted, 1)
-    while size < entries:
-        size = math.ceil(size * GROWTH)
-    return size
 
 
 def _blocks(count, lanes: int) -> dict:

@@ -5,6 +5,7 @@ dropped, and a stable sort by tile leaves every tile's list front to back. The l
 for the boxes, which hold more entries than the ellipses. Work: O(n log n) and O(capacity log capacity) per view.
 """
 
+import functools
 from typing import Any
 
 import jax
@@ -13,7 +14,7 @@ import jax.numpy as jnp
 from wm.schema import RasterSettings
 from wm.splat._spans import blocks, chord, chord_terms, slack, tile_span
 from wm.splat.project import DEFAULTS, Projected
-from wm.splat.tiles import TilePlan
+from wm.splat.tiles import TilePlan, padded_capacity
 from wm.types import record
 
 COUNTABLE = 2.0**30
@@ -50,6 +51,35 @@ def plan_tiles_traced(
     ends = jnp.searchsorted(in_tile, jnp.arange(tiles + 1, dtype=jnp.int32)).astype(jnp.int32)
     ids = jnp.where(in_tile < tiles, ids, projected.opacity.shape[0])
     return TracedPlan(plan=TilePlan(ids=ids, **_blocks(jnp.diff(ends), settings.block)), needed=needed)
+
+
+def plan_tiles_on_device(
+    projected: Projected, width: int, height: int, settings: RasterSettings = DEFAULTS, *, capacity: int | None = None
+) -> TilePlan:
+    """The plan of one image, outside jit but on the device: entries are counted first, so that there is room for all.
+
+    Args:
+        projected, width, height, settings: as for `plan_tiles_traced`.
+        capacity: how many entries to make room for at least, as for `plan_tiles`.
+
+    Raises:
+        ValueError: there are more entries than 32 bits count.
+    """
+    needed = int(_room(projected, width, height, settings))
+    if needed > COUNTABLE:
+        raise ValueError(f"the gaussians' boxes meet more than {COUNTABLE:.0f} tiles in all; smaller gaussians would be right")
+    return _plan(projected, width, height, settings, padded_capacity(needed, capacity))
+
+
+@functools.partial(jax.jit, static_argnums=(1, 2, 3))
+def _room(projected: Projected, width: int, height: int, settings: RasterSettings):
+    (_, across), (_, down), _ = _boxes(projected, width, height, settings)
+    return _total(across * down)
+
+
+@functools.partial(jax.jit, static_argnums=(1, 2, 3, 4))
+def _plan(projected: Projected, width: int, height: int, settings: RasterSettings, capacity: int) -> TilePlan:
+    return plan_tiles_traced(projected, width, height, settings, capacity=capacity).plan
 
 
 def _entries(projected: Projected, width: int, height: int, settings: RasterSettings, capacity: int):
@@ -93,9 +123,13 @@ def _unrolled(lengths, capacity: int):
     which = jnp.repeat(jnp.arange(len(lengths), dtype=jnp.int32), lengths, total_repeat_length=capacity)
     entry = jnp.arange(capacity, dtype=jnp.int32)
     which = jnp.where(entry < ends[-1], which, len(lengths) - 1)
+    return which, entry - (ends - lengths)[which], _total(lengths)
+
+
+def _total(lengths):
+    """The sum of lengths, or the largest integer where 32 bits may not hold it."""
     total = jnp.sum(lengths.astype(jnp.float32))
-    needed = jnp.where(total > COUNTABLE, jnp.iinfo(jnp.int32).max, ends[-1])
-    return which, entry - (ends - lengths)[which], needed
+    return jnp.where(total > COUNTABLE, jnp.iinfo(jnp.int32).max, jnp.sum(lengths, dtype=jnp.int32))
 
 
 def _blocks(count, lanes: int) -> dict:
