@@ -21,6 +21,10 @@ def scaled(a: Rgb, factor: float) -> Rgb:
     return min(a[0] * factor, 1.0), min(a[1] * factor, 1.0), min(a[2] * factor, 1.0)
 
 
+TILES = ("stone_tiles", "water_tiles", "checker_tiles", "terracotta", "mosaic")
+"""Materials that bathrooms are not clad in up to the ceiling."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Sheet:
     """What has to be said about a family; colours are hexadecimal codes."""
@@ -87,6 +91,8 @@ def build(theme: str, family: str, sheet: Sheet) -> Style:
     rooms = {"other": dry}
     if sheet.wet_wall and sheet.wet_floor:
         rooms["bathroom"] = Surfaces(sheet.wet_wall, sheet.wet_floor, sheet.ceiling, sheet.trim)
+        if sheet.wet_wall.material in TILES:  # tiled as high as it splashes
+            rooms["bathroom"] = Surfaces(sheet.wall, sheet.wet_floor, sheet.ceiling, sheet.trim, sheet.wet_wall, 1.7)
         rooms["kitchen"] = Surfaces(sheet.wall, sheet.wet_floor, sheet.ceiling, sheet.trim, sheet.wet_wall, 1.5)
     for kind, wall, floor in sheet.rooms:
         keep = wall.material not in ("stone_blocks", "marble", "brick")  # masonry needs no wainscot in front of it
