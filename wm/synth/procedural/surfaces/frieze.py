@@ -8,10 +8,12 @@ from wm.synth.procedural.finish import Rgb
 from wm.synth.procedural.materials.gears import TEETH, TOOTH, wheel
 from wm.synth.procedural.noise import cells, edge
 from wm.synth.procedural.sheet import mix
-from wm.synth.procedural.surfaces.sheet import F32, Chart, Interior, Sheet, lay, over, shaded
+from wm.synth.procedural.surfaces.sheet import F32, Chart, Interior, Sheet, cropped, lay, over, pasted, shaded
 
 FRIEZES: dict[str, tuple[str, float]] = {"clockwork": ("gears", 0.24), "roman": ("meander", 0.2)}
 """Ornament and height (metres) of a family's frieze."""
+BELOW = 0.3
+"""Metres below a frieze that its shadow reaches at most."""
 MEANDER = ("#######", "#.....#", "#.###.#", "#.#...#", "#.#####", "#......", "#######")
 """One repeat of a Greek key, seen from above: the lines are #; repeats share their left edge with the one before."""
 
@@ -21,6 +23,16 @@ def frieze(chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: I
     name, tall = FRIEZES.get(interior.style.family, ("", 0.0))
     if not name or interior.kind == "bathroom" or top < 2.2:
         return sheet
+    window = (slice(*np.searchsorted(z[:, 0], [top - tall - BELOW, top + 0.05])), slice(None))
+    s, z = s[window], z[window]
+    part = dataclasses.replace(chart, shape=s.shape)
+    return pasted(sheet, window, _band(part, cropped(sheet, window), s, z, interior, name, top=top, tall=tall))
+
+
+def _band(
+    chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: Interior, name: str, *, top: float, tall: float
+) -> Sheet:
+    """The strip of wall about the frieze, with it."""
     middle = F32(top - tall / 2)
     inside = F32(tall / 2) - np.abs(z - middle)
     if name == "gears":

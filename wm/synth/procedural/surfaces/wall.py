@@ -10,9 +10,24 @@ from wm.synth.procedural.materials.wall import trim_profile
 from wm.synth.procedural.materials.wood import NARROW, framed_panel
 from wm.synth.procedural.noise import cells, edge
 from wm.synth.procedural.surfaces.frieze import frieze
-from wm.synth.procedural.surfaces.sheet import F32, Chart, Gap, Interior, Sheet, as_sheet, grid, lay, over, shaded, with_cavities
+from wm.synth.procedural.surfaces.sheet import (
+    F32,
+    Chart,
+    Gap,
+    Interior,
+    Sheet,
+    as_sheet,
+    cropped,
+    grid,
+    lay,
+    over,
+    pasted,
+    shaded,
+    with_cavities,
+)
 
 CASED = 0.14  # metres beside an opening that its casing covers at most
+BESIDE = 0.5  # metres beside an opening that its casing and the shadow of that reach at most
 STILE = 0.085  # metres: frame between two panels of a wainscot
 
 
@@ -33,7 +48,9 @@ def wall_sheet(chart: Chart, gaps: tuple[Gap, ...], interior: Interior) -> Sheet
     sheet = frieze(chart, sheet, s, z, interior, top=interior.height - cornice_depth(ornament) - 0.02)
     sheet = _cornice(chart, sheet, trim, z, interior)
     for gap in gaps:
-        sheet = _casing(chart, sheet, trim, s, z, gap, interior)
+        window = (slice(None), slice(*np.searchsorted(s[0], [gap.left - BESIDE, gap.right + BESIDE])))
+        part = _casing(chart, cropped(sheet, window), cropped(trim, window), s[window], z[window], gap, interior)
+        sheet = pasted(sheet, window, part)
     return with_cavities(sheet, chart.texel)
 
 
