@@ -28,6 +28,7 @@ _NOUNS: dict[str, tuple[str, ...]] = {
         "cabinet", "wardrobe", "dresser", "nightstand", "sideboard", "chest", "basket", "lamp", "candelabra", "plant", "tree",
         "statue", "column", "globe", "fireplace", "counter", "island", "fridge", "refrigerator", "stove", "oven", "bathtub",
         "tub", "toilet", "washbasin", "sink", "shower", "screen", "lectern", "piano", "clock", "armour", "bookcase", "console",
+        "orrery", "sculpture", "topiary", "planter",
     ),
 }  # fmt: skip
 _SUPPORT = {noun: support for support, nouns in _NOUNS.items() for noun in nouns}

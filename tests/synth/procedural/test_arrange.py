@@ -1,5 +1,6 @@
 """The laws of furnished rooms, over seeded rooms of every type and several shapes."""
 
+import dataclasses
 import functools
 
 import numpy as np
@@ -10,7 +11,8 @@ from scipy import ndimage
 from wm.geometry.navigation import cells_inside
 from wm.geometry.site import make_site
 from wm.schema import NavigationSettings
-from wm.synth.procedural.arrange import furnish_site, scene_object
+from wm.synth.procedural.arrange import furnish_site, lamped, scene_object
+from wm.synth.procedural.inventory import LAMPS
 from wm.synth.procedural.programmes import PROGRAMME
 from wm.synth.procedural.style import style_of
 
@@ -21,8 +23,11 @@ NAVIGATION = NavigationSettings()
 
 
 @functools.cache
-def room(k: int):
-    """Room k: (site, its pieces). Rectangles, L-shapes, corridors and closets; one to three doors, up to two windows."""
+def room(k: int, theme: str = ""):
+    """Room k, in the theme whose turn it is or another: (site, its pieces).
+
+    Rectangles, L-shapes, corridors and closets; one to three doors, up to two windows.
+    """
     rng = np.random.default_rng(k)
     kind = TYPES[k % len(TYPES)]
     w, d = {"bathroom": (rng.uniform(1.7, 3), rng.uniform(2, 3)), "corridor": (rng.uniform(4, 8), rng.uniform(1.1, 1.6))}.get(
@@ -40,7 +45,7 @@ def room(k: int):
     if kind != "corridor":
         openings.append(("window", np.array([[0.15 * w, d], [0.15 * w + 0.3 * w, d]]), 0.9, 2.1))
     site = make_site(polygon, 2.7 + 0.3 * (k % 2), openings)
-    return site, furnish_site(site, kind, style_of(THEMES[k % len(THEMES)]), seed=k, room=k % 7)
+    return site, furnish_site(site, kind, style_of(theme or THEMES[k % len(THEMES)]), seed=k, room=k % 7)
 
 
 def trunk(placed):
@@ -51,7 +56,16 @@ def trunk(placed):
 
 @pytest.mark.parametrize("k", range(ROOMS))
 def test_laws_of_a_room(k):
-    site, placed = room(k)
+    check_laws(*room(k))
+
+
+@pytest.mark.parametrize("k", range(12))
+def test_laws_of_a_room_full_of_clockwork(k):
+    """Wheels, orreries, climbers and clocks larger than any other family's keep the laws in rooms of every type."""
+    check_laws(*room(k, "clockwork garden"))
+
+
+def check_laws(site, placed):
     solids = [trunk(p) for p in placed]
     roomy = site.polygon.buffer(0.001)
     for p, (hull, low, high) in zip(placed, solids):
@@ -90,9 +104,7 @@ def check_walkable(site, placed, solids):
     walkable = site.polygon.buffer(-NAVIGATION.body_radius)
     in_the_way = [hull for p, (hull, low, _) in zip(placed, solids) if p.piece.support == "floor" and low < 1.8]
     blocked = shapely.union_all(in_the_way).buffer(NAVIGATION.body_radius)
-    bare, free = (
-        cells_inside(area, low, NAVIGATION.cell, (rows, columns)) for area in (walkable, walkable.difference(blocked))
-    )
+    bare, free = (cells_inside(area, low, NAVIGATION.cell, (rows, columns)) for area in (walkable, walkable.difference(blocked)))
     labels, _ = ndimage.label(free)
     sizes = np.bincount(labels.ravel())[1:]
     if not len(sizes) or ndimage.label(bare)[1] > 1:
@@ -118,6 +130,16 @@ def test_the_same_seed_gives_the_same_room_and_another_seed_another():
     names = [[(p.piece.label, p.x, p.y, p.yaw) for p in placed] for placed in runs]
     assert names[0] == names[1] and names[0] != names[2]
     assert all(a.piece.vertices.tobytes() == b.piece.vertices.tobytes() for a, b in zip(runs[0], runs[1]))
+
+
+@pytest.mark.parametrize("family", LAMPS)
+def test_a_house_has_lamps_of_several_sorts_and_one_sort_for_each_type_of_room(family):
+    style = dataclasses.replace(style_of("gothic"), family=family)
+    for seed in range(3):
+        sorts = {kind: lamped(style, kind, seed).form.lamp for kind in TYPES}
+        assert len(set(sorts.values())) >= 2
+        assert sorts == {kind: lamped(style, kind, seed).form.lamp for kind in TYPES}
+        assert all(sort in LAMPS[family].get(kind, LAMPS[family][""]) for kind, sort in sorts.items())
 
 
 def test_density_thins_out():

@@ -7,9 +7,10 @@ import pytest
 
 from wm.synth.procedural.finish import SLOTS
 from wm.synth.procedural.furniture import KINDS, make_piece
+from wm.synth.procedural.furniture.pictures import SUBJECTS, subject
 from wm.synth.procedural.style import style_of
 
-THEMES = ("gothic", "scandinavian", "roman", "surreal", "japanese")
+THEMES = ("gothic", "scandinavian", "roman", "surreal", "japanese", "clockwork")
 
 
 @functools.cache
@@ -17,7 +18,7 @@ def pieces(kind):
     return [
         make_piece(kind, style_of(theme), np.random.default_rng(k))
         for k, theme in enumerate(THEMES)
-        if (k + list(KINDS).index(kind)) % 5 < 2
+        if (k + list(KINDS).index(kind)) % len(THEMES) < 2
     ]
 
 
@@ -59,6 +60,17 @@ def test_the_same_dice_give_the_same_piece_and_other_dice_another(kind):
     first, again, other = (make_piece(kind, style_of("gothic"), np.random.default_rng(k)) for k in (1, 1, 2))
     assert first.vertices.tobytes() == again.vertices.tobytes() and first.faces.tobytes() == again.faces.tobytes()
     assert first.vertices.tobytes() != other.vertices.tobytes()
+
+
+@pytest.mark.parametrize("family", SUBJECTS)
+def test_pictures_stay_on_their_canvas_and_differ(family):
+    style = style_of(family if family != "surreal" else "a dream")
+    drawn = [subject(style, np.random.default_rng(k), half=0.3, low=0.05, high=0.5, face=-0.004) for k in range(8)]
+    for parts in drawn:
+        points = np.concatenate([part.solid.vertices for part in parts])
+        assert np.abs(points[:, 0]).max() <= 0.3 + 1e-9 and points[:, 2].min() >= 0.05 - 1e-9 and points[:, 2].max() <= 0.5 + 1e-9
+        assert points[:, 1].min() > -0.02
+    assert len({b"".join(part.solid.vertices.tobytes() for part in parts) for parts in drawn}) > 4
 
 
 @pytest.mark.parametrize("kind", ["chair", "armchair", "sofa", "bed"])

@@ -15,7 +15,8 @@ FAMILY = {
     "bright scandinavian apartment with pale oak": "scandinavian",
     "airy modern beach house with whitewashed boards, linen and driftwood": "coastal",
     "roman country estate with marble floors": "roman",
-    "dreamlike clockwork garden pavilion of brass, moss and glowing glass": "surreal",
+    "dreamlike clockwork garden pavilion of brass, moss and glowing glass": "clockwork",
+    "a dreamlike wonderland": "surreal",
     "minimalist": "minimalist",
     "a Victorian townhouse": "victorian",
     "cyberpunk at night": "cyberpunk",
@@ -68,6 +69,15 @@ def test_words_change_what_the_family_left_open():
         style_of("scandinavian flat with red sofas").slot("fabric").colors != style_of("scandinavian flat").slot("fabric").colors
     )
     assert style_of("ornate roman villa").form.ornament > style_of("roman villa").form.ornament
+
+
+def test_coloured_walls_do_not_dye_the_sofas():
+    plain, walls, sofas = (style_of(f"scandinavian flat {words}") for words in ("", "with red walls", "with red sofas"))
+    assert walls.slot("fabric") == plain.slot("fabric") != sofas.slot("fabric")
+
+
+def test_a_family_with_marble_of_its_own_keeps_it():
+    assert style_of("roman villa with marble floors").surfaces("hall").floor.material == "sectile"
 
 
 def test_an_unknown_slot_is_named():

@@ -5,7 +5,9 @@ import pytest
 
 from wm.synth.procedural.families import FAMILIES
 from wm.synth.procedural.style import style_of
-from wm.synth.procedural.surfaces import Chart, Gap, Interior, dress
+from wm.synth.procedural.surfaces import Chart, Gap, Interior, dress, grid
+from wm.synth.procedural.surfaces.frieze import frieze
+from wm.synth.procedural.surfaces.sheet import lay
 from wm.types import SurfaceKind
 
 KINDS = [SurfaceKind.WALL, SurfaceKind.FLOOR, SurfaceKind.CEILING, SurfaceKind.REVEAL, SurfaceKind.PANE]
@@ -52,3 +54,32 @@ def test_a_door_gets_a_raised_casing():
     column = int(1.45 / 0.04)
     assert cased.height[40, column] > bare.height[40, column] + 0.01
     np.testing.assert_array_equal(cased.albedo[:, :, -5], bare.albedo[:, :, -5])  # far from the door nothing changes
+
+
+@pytest.mark.parametrize("theme", ["roman", "clockwork"])
+def test_a_frieze_runs_below_the_cornice_and_nowhere_else(theme):
+    """Every wall has it at the same height; bathrooms and families that own none have none."""
+    flat, inside = chart(SurfaceKind.WALL), interior(theme)
+    s, t = grid(flat)
+    bare = lay(flat, inside.surfaces.wall, s, t, seed=5)
+    drawn = frieze(flat, bare, s, t, inside, top=2.6)
+    changed = np.flatnonzero(np.abs(drawn.albedo - bare.albedo).max(axis=(0, 2)) > 0.05) * flat.texel
+    assert 2.2 < changed.min() < changed.max() < 2.65
+    assert frieze(flat, bare, s, t, interior(theme, "bathroom"), top=2.6) is bare
+    assert frieze(flat, bare, s, t, interior("gothic"), top=2.6) is bare
+
+
+def test_doors_of_ornate_styles_stand_under_a_cap():
+    inside = interior("roman")
+    bare, capped = (dress(chart(SurfaceKind.WALL), gaps, inside) for gaps in ((), (Gap("door", 1.5, 2.5, 0.0, 2.0),)))
+    row, column = int(2.17 / 0.04), int(2.0 / 0.04)
+    assert capped.height[row, column] > bare.height[row, column] + 0.02
+
+
+def test_jambs_carry_a_stop_and_thresholds_none():
+    x, y, z = np.eye(3)
+    upright = Chart(SurfaceKind.REVEAL, np.zeros(3), y, z, x, (200, 30), 0.01)
+    level = Chart(SurfaceKind.REVEAL, np.zeros(3), x, y, z, (30, 90), 0.01)
+    jamb, threshold = (dress(flat, (), interior("gothic")) for flat in (upright, level))
+    assert jamb.height[100, 15] > jamb.height[100, 3] + 0.008
+    assert np.ptp(threshold.height) < 0.005

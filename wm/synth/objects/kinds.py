@@ -18,6 +18,8 @@ _OTHER_WORDS = {
     "cabinet": "sideboard", "tree": "plant", "mat": "bath mat", "pouffe": "ottoman", "book": "pile of books",
     "candle": "candles", "flower": "flowers", "bouquet": "flowers", "sconce": "wall sconce", "hood": "range hood",
     "stand": "media bench", "island": "kitchen island", "counter": "kitchen counter", "sculpture": "statue",
+    "clock": "wall clock", "gear": "wall gears", "cog": "wall gears", "pipe": "wall pipes", "ivy": "wall ivy",
+    "trellis": "wall ivy", "hedge": "topiary",
 }  # fmt: skip
 """What the last word of a label means where no kind is called so."""
 _KIND_BY_WORDS = {tuple(words_of(kind)): kind for kind in KINDS}

@@ -3,6 +3,7 @@
 The dice are np.random.SeedSequence([seed, room index, 4]); two seeds never give the same room, one seed always does.
 """
 
+import dataclasses
 import math
 
 import numpy as np
@@ -12,7 +13,7 @@ from wm.geometry.site import Site
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.groups import middle_piece
 from wm.synth.procedural.hangings import curtain_pairs, hang, on_wall, wall_piece
-from wm.synth.procedural.inventory import ABSENT, AT_WALL, CORNERS, FLAVOUR, ONCE
+from wm.synth.procedural.inventory import ABSENT, AT_WALL, CORNERS, FLAVOUR, LAMPS, ONCE, OVER_FURNITURE, WALL_FEATURES
 from wm.synth.procedural.job import Job
 from wm.synth.procedural.layout import Layout, Placed
 from wm.synth.procedural.programmes import PROGRAMME
@@ -33,12 +34,16 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     layout = Layout(site)
     if not layout.standing.any():
         return []
-    job = Job(layout, style, rng, density)
     narrow = 2 * float(shapely.maximum_inscribed_circle(site.polygon, tolerance=0.02).length) < NARROW
     kind = "corridor" if narrow and kind in ("hall", "gallery", "living", "other") else kind
+    style = lamped(style, kind, seed)
+    job = Job(layout, style, rng, density)
     if kind != "bathroom" and rng.random() < 0.55 + 0.4 * style.form.softness:
         curtain_pairs(job)
     PROGRAMME[kind](job)
+    for name, middle, rooms in WALL_FEATURES.get(style.family, ()):
+        if kind in rooms.split():
+            wall_piece(job, name, middle)
     fill(job, kind)
     for _ in range(2 if kind not in ("bathroom", "corridor", "kitchen", "dining") else 0):
         if job.chance(0.9) and middle_piece(job, kind) is None:
@@ -46,6 +51,14 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     light(job)
     hang_pictures(job, kind)
     return layout.placed
+
+
+def lamped(style: Style, kind: str, seed: int) -> Style:
+    """The style with the sort of lamp that rooms of a kind have in this house."""
+    table = LAMPS.get(style.family, {"": (style.form.lamp,)})
+    sorts = table.get(kind, table[""])
+    pick = np.random.default_rng(np.random.SeedSequence([seed, list(PROGRAMME).index(kind), 5])).integers(len(sorts))
+    return dataclasses.replace(style, form=dataclasses.replace(style.form, lamp=sorts[int(pick)]))
 
 
 def wanted(site: Site, kind: str, density: float) -> int:
@@ -97,6 +110,7 @@ def hang_pictures(job: Job, kind: str) -> None:
     if kind == "bathroom":
         return
     style, rng = job.style, job.rng
+    own, hung = OVER_FURNITURE.get(style.family, ()), 0
     for placed in list(job.layout.placed):
         name = placed.piece.label
         if name in (
@@ -112,7 +126,11 @@ def hang_pictures(job: Job, kind: str) -> None:
             "desk",
         ) and job.chance(0.85):
             mirror = name in ("console table", "dresser", "fireplace") and rng.random() < 0.55
-            on_wall(job, "mirror" if mirror else "picture", placed, z=1.25)
+            usual = "mirror" if mirror else "picture"
+            for piece in (*own[hung % max(len(own), 1) :], usual):
+                if on_wall(job, piece, placed, z=1.25):
+                    hung += 1
+                    break
     area = job.layout.site.polygon.area
     extra = round(min(1 + area / 14, 4) * job.density)
     choices = [

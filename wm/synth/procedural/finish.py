@@ -16,6 +16,8 @@ MATERIALS: dict[str, str] = {
     "paint": "flat wall paint, faint roller texture; base; -",
     "wallpaper_damask": "damask paper; ground, figure; height of one repeat",
     "wallpaper_stripe": "striped paper; ground, stripe; width of one stripe",
+    "wallpaper_gears": "paper printed with meshing gear wheels; ground, wheels; distance between two wheels' middles",
+    "fresco": "painted plaster in fields parted by columns; field, every other field, lines; width of a field",
     "panelling": "framed wooden panels; wood, groove; width of one panel",
     "brick": "running-bond brick; brick, joint, odd brick; length of one brick",
     "concrete": "board-marked concrete with tie holes; base, stain; height of one lift",
@@ -24,6 +26,7 @@ MATERIALS: dict[str, str] = {
     "stone_tiles": "cut stone tiles; stone, joint, vein; tile side",
     "stone_blocks": "ashlar masonry; stone, joint, stain; block length",
     "checker_tiles": "two-tone square tiles; light, dark, joint; tile side",
+    "sectile": "inlaid marble, discs and lozenges in squares; ground, second marble, third; side of a square",
     "water_tiles": "glazed tiles with a caustic shimmer; glaze, joint, caustic; tile side",
     "marble": "polished veined marble; base, vein, second vein; vein spacing",
     "wood_planks": "long boards; wood, joint, grain; board width",
@@ -83,7 +86,7 @@ class Form:
     legs: str  # turned | tapered | straight | cabriole | hairpin | column | slab
     back: str  # pointed_arch | round_arch | spindle | slats | panel | klismos | plain | wave: chair backs and headboards
     panel: str  # pointed | raised | flat | arched | slats | plain: fronts of cupboards, chests, fireplaces
-    lamp: str  # cone | drum | globe | lantern | candle | tripod: what lamps and pendants look like
+    lamp: str  # cone | drum | globe | lantern | candle | tripod | paper | rattan | dome | bowl | cluster: lamps and pendants
     softness: float  # 0..1: thickness and roundness of cushions and edges
     ornament: float  # 0..1: finials, mouldings, tufting, extra clutter
     low: float = 1.0  # factor on seat and bed heights (a tea house sits low)
@@ -133,7 +136,7 @@ class Style:
         raise KeyError(f"unknown furniture slot {name!r}; slots: {', '.join(SLOTS)}")
 
 
-PERIOD = frozenset({"gothic", "victorian", "baroque", "roman", "rustic", "japanese", "moroccan", "surreal"})
+PERIOD = frozenset({"gothic", "victorian", "baroque", "roman", "rustic", "japanese", "moroccan", "clockwork", "surreal"})
 """Families without screens and swivel chairs, and with cast-iron stoves."""
 
 SLOTS: tuple[str, ...] = (

@@ -8,6 +8,9 @@ from wm.synth.procedural.furniture import KINDS
 from wm.synth.procedural.job import Job
 from wm.synth.procedural.layout import LIFT, Placed
 
+WIDE = {"paper": 1.3, "rattan": 1.25, "bowl": 1.15, "cluster": 1.4}
+"""How much wider than other pendants these sorts of lamp are."""
+
 
 def hang(job: Job, x: float, y: float, *, low: float = 2.05) -> Placed | None:
     """A chandelier or pendant from the ceiling, its foot no lower than `low`."""
@@ -15,6 +18,7 @@ def hang(job: Job, x: float, y: float, *, low: float = 2.05) -> Placed | None:
     kind = "chandelier" if job.style.form.lamp in ("candle", "tripod", "cone") or job.style.family == "rustic" else "pendant lamp"
     room = ceiling - 2 * LIFT - low
     w = float(job.rng.uniform(0.7, 0.95)) if kind == "chandelier" else float(job.rng.uniform(0.34, 0.48))
+    w *= 1.0 if kind == "chandelier" else WIDE.get(job.style.form.lamp, 1.0)
     tall = min(room, float(job.rng.uniform(0.75, 1.0)) if low < 2.0 else float(job.rng.uniform(0.6, 0.8)))
     least = 0.5 if kind == "chandelier" else (1.3 if job.style.form.lamp == "globe" else 1.0) * w
     if tall < least:

@@ -22,7 +22,7 @@ FLAVOUR: dict[str, tuple[tuple[str, str], ...]] = {
         ("candelabra", "dining hall living bedroom"),
         ("altar table", "hall gallery"),
     ),
-    "roman": (("column", "hall living dining gallery bathroom study"), ("statue", "hall dining bathroom gallery")),
+    "roman": (("column", "hall living dining gallery bathroom study"), ("statue", "dining bathroom gallery")),
     "baroque": (("candelabra", "hall dining bedroom living"), ("statue", "hall gallery")),
     "surreal": (
         ("giant mushroom", "hall living bedroom corridor other utility"),
@@ -31,9 +31,58 @@ FLAVOUR: dict[str, tuple[tuple[str, str], ...]] = {
     ),
     "japanese": (("folding screen", "living bedroom dining hall"),),
     "moroccan": (("folding screen", "living bedroom"), ("candelabra", "hall living")),
+    "clockwork": (
+        ("gear sculpture", "hall living gallery utility"),
+        ("orrery", "hall living library study bedroom other"),
+        ("grandfather clock", "living dining bedroom corridor study"),
+        ("topiary", "hall living dining gallery other"),
+        ("planter", "hall living kitchen dining utility"),
+    ),
     "victorian": (("grandfather clock", "hall living library study"), ("globe", "living study")),
 }
 """Pieces that only some families have, and the room types they belong in."""
+
+WALL_FEATURES: dict[str, tuple[tuple[str, float, str], ...]] = {
+    "clockwork": (
+        ("wall ivy", 1.25, "hall gallery living dining"),
+        ("skeleton wall clock", 1.8, "hall utility bedroom study library gallery dining kitchen corridor"),
+        ("wall pipes", 1.2, "utility kitchen bathroom"),
+        ("wall gears", 1.75, "hall utility living bedroom study corridor gallery other"),
+        ("wall ivy", 1.25, "hall gallery utility"),
+    ),
+}
+"""Large things on the walls that only some families have, the height of their middles, and the room types they belong in."""
+
+OVER_FURNITURE: dict[str, tuple[str, ...]] = {"clockwork": ("skeleton wall clock", "wall gears")}
+"""What hangs over the furniture of a room in place of pictures, in turn."""
+
+LAMPS: dict[str, dict[str, tuple[str, ...]]] = {
+    # family -> room type -> what Form.lamp may be there; "" is every other room
+    "gothic": {
+        "": ("candle",), "kitchen": ("lantern",), "corridor": ("lantern",), "bathroom": ("lantern",), "study": ("cone", "candle"),
+        "utility": ("lantern",),
+    },
+    "roman": {
+        "": ("tripod", "bowl"), "hall": ("tripod",), "dining": ("tripod",), "bedroom": ("bowl",), "bathroom": ("bowl",),
+        "kitchen": ("lantern",), "corridor": ("lantern",), "library": ("bowl",),
+    },
+    "scandinavian": {
+        "": ("drum", "paper"), "living": ("paper",), "kitchen": ("dome",), "dining": ("dome", "paper"), "bathroom": ("globe",),
+    },
+    "coastal": {
+        "": ("rattan", "drum"), "living": ("rattan",), "bedroom": ("drum", "paper"), "bathroom": ("globe",),
+        "kitchen": ("dome",), "corridor": ("lantern",), "hall": ("lantern",),
+    },
+    "clockwork": {
+        "": ("cluster", "globe"), "hall": ("cluster",), "living": ("cluster",), "utility": ("dome",), "kitchen": ("dome",),
+        "bedroom": ("globe",), "bathroom": ("globe",),
+    },
+    "victorian": {
+        "": ("cone",), "kitchen": ("dome",), "corridor": ("lantern",), "bathroom": ("globe",), "bedroom": ("cone", "drum"),
+    },
+    "modern": {"": ("drum", "globe"), "kitchen": ("dome",), "dining": ("dome", "globe"), "bathroom": ("globe",)},
+}  # fmt: skip
+"""Two or three sorts of lamp to a house; families that are not here have the one of their form everywhere."""
 
 ABSENT: dict[str, frozenset[str]] = {
     "scandinavian": frozenset({"statue", "column", "candelabra", "grandfather clock", "chest", "lectern"}),
@@ -42,17 +91,20 @@ ABSENT: dict[str, frozenset[str]] = {
     "modern": frozenset({"statue", "candelabra", "grandfather clock", "lectern", "chest"}),
     "neutral": frozenset({"statue", "candelabra", "grandfather clock", "lectern"}),
     "industrial": frozenset({"statue", "candelabra", "grandfather clock", "lectern"}),
+    "roman": frozenset({"grandfather clock"}),
+    "clockwork": frozenset({"statue", "column", "candelabra", "lectern"}),
     "cyberpunk": frozenset({"candelabra", "grandfather clock", "lectern", "chest", "basket"}),
     "midcentury": frozenset({"statue", "candelabra", "lectern"}),
     "japanese": frozenset({"statue", "column", "candelabra", "grandfather clock", "globe", "lectern"}),
 }
 """What families would not own."""
 
-ONCE = frozenset({"wardrobe", "dresser", "desk", "grandfather clock", "globe", "lectern", "suit of armour"})
+ONCE = frozenset({"wardrobe", "dresser", "desk", "grandfather clock", "globe", "lectern", "suit of armour", "orrery",
+                  "gear sculpture"})  # fmt: skip
 """Pieces of which a room holds one."""
 
 CORNERS = frozenset(
     {"plant", "floor lamp", "candelabra", "statue", "column", "globe", "basket", "stool", "armchair", "suit of armour",
-     "giant mushroom", "folding screen"}
+     "giant mushroom", "folding screen", "topiary"}
 )  # fmt: skip
 """Pieces that like corners."""

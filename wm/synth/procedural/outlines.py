@@ -55,3 +55,36 @@ def frame(outline: shapely.Polygon, border: Real) -> shapely.Polygon:
 def circle(radius: Real, *, at: tuple[Real, Real] = (0.0, 0.0), segments: int = 24) -> shapely.Polygon:
     t = np.arange(segments) * 2 * math.pi / segments
     return shapely.Polygon(np.stack([at[0] + radius * np.cos(t), at[1] + radius * np.sin(t)], -1))
+
+
+def gear(
+    radius: Real, teeth: int, *, turned: Real = 0.0, at: tuple[Real, Real] = (0.0, 0.0), spokes: int = 5, tooth: Real = 0.0
+) -> shapely.Polygon:
+    """A gear wheel with spokes and a hub.
+
+    Args:
+      radius: of the pitch circle: two wheels mesh whose middles are the sum of their radii apart.
+      turned: radians from the x axis to the middle of the first tooth.
+      spokes: openings between rim and hub; 0 for a solid disc.
+      tooth: height of a tooth, half of it beyond the pitch circle; drawn from `radius` and `teeth` where 0.
+    """
+    pitch = 2 * math.pi / teeth
+    high = tooth or 1.9 * radius / teeth * 2
+    shares, reaches = np.array([-0.27, -0.13, 0.13, 0.27]), np.array([-0.5, 0.45, 0.45, -0.5])
+    angle = (turned + pitch * (np.arange(teeth)[:, None] + shares)).ravel()
+    reach = np.tile(radius + high * reaches, teeth)
+    wheel = shapely.Polygon(np.stack([at[0] + reach * np.cos(angle), at[1] + reach * np.sin(angle)], -1))
+    rim, hub = radius - 0.5 * high - 0.13 * radius, 0.26 * radius
+    if spokes and rim > hub + 0.1 * radius:
+        ring = circle(rim, at=at, segments=40).difference(circle(hub, at=at, segments=20))
+        bars = [
+            shapely.LineString([at, (at[0] + radius * math.cos(a), at[1] + radius * math.sin(a))]).buffer(0.055 * radius)
+            for a in turned + 0.3 + 2 * math.pi * np.arange(spokes) / spokes
+        ]
+        wheel = wheel.difference(ring.difference(shapely.union_all(bars)))
+    return wheel if isinstance(wheel, shapely.Polygon) else circle(radius, at=at)
+
+
+def meshed(turned: Real, teeth: int, other: int, towards: Real) -> float:
+    """`turned` of a wheel with `other` teeth that meshes with one of `teeth`, seen in the direction `towards` (radians)."""
+    return towards + math.pi - (turned - towards) * teeth / other + math.pi / other

@@ -21,6 +21,10 @@ def scaled(a: Rgb, factor: float) -> Rgb:
     return min(a[0] * factor, 1.0), min(a[1] * factor, 1.0), min(a[2] * factor, 1.0)
 
 
+TILES = ("stone_tiles", "water_tiles", "checker_tiles", "terracotta", "mosaic")
+"""Materials that bathrooms are not clad in up to the ceiling."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Sheet:
     """What has to be said about a family; colours are hexadecimal codes."""
@@ -87,6 +91,8 @@ def build(theme: str, family: str, sheet: Sheet) -> Style:
     rooms = {"other": dry}
     if sheet.wet_wall and sheet.wet_floor:
         rooms["bathroom"] = Surfaces(sheet.wet_wall, sheet.wet_floor, sheet.ceiling, sheet.trim)
+        if sheet.wet_wall.material in TILES:  # tiled as high as it splashes
+            rooms["bathroom"] = Surfaces(sheet.wall, sheet.wet_floor, sheet.ceiling, sheet.trim, sheet.wet_wall, 1.7)
         rooms["kitchen"] = Surfaces(sheet.wall, sheet.wet_floor, sheet.ceiling, sheet.trim, sheet.wet_wall, 1.5)
     for kind, wall, floor in sheet.rooms:
         keep = wall.material not in ("stone_blocks", "marble", "brick")  # masonry needs no wainscot in front of it
@@ -137,7 +143,7 @@ def slot_finishes(sheet: Sheet) -> dict[str, Finish]:
         "brass": of("metal", brass, mix(brass, white, 0.5), scale=0.004, roughness=0.25),
         "chrome": of("metal", rgb("c9cdd0"), white, scale=0.004, roughness=0.12),
         "stone": of("stone_tiles", stone, scaled(stone, 0.7), scaled(stone, 0.88), scale=0.6, roughness=0.7),
-        "marble": of("marble", mix(stone, white, 0.45), scaled(stone, 0.75), stone, scale=0.3, roughness=0.2),
+        "marble": of("marble", mix(stone, white, 0.2), scaled(stone, 0.6), scaled(stone, 0.85), scale=0.3, roughness=0.2),
         "tile": of("stone_tiles", mix(ceramic, white, 0.3), scaled(ceramic, 0.7), ceramic, scale=0.1, roughness=0.2),
         "ceramic": of("ceramic", mix(ceramic, white, 0.2), roughness=0.15),
         "glass": of("glass", rgb("cfe0e2"), roughness=0.05),
@@ -145,7 +151,15 @@ def slot_finishes(sheet: Sheet) -> dict[str, Finish]:
         "water": of("glass", rgb("9fd0d8"), roughness=0.05),
         "paper": of("paper", rgb("efe8d8"), rgb("8a8274"), roughness=0.9),
         "book": of("paper", rgb(sheet.accents[0]), brass, roughness=0.7),
-        "painting": of("painting", rgb(sheet.accents[3]), rgb(sheet.accents[0]), rgb(sheet.accents[1]), scale=0.3, roughness=0.6),
+        "painting": of(
+            "painting",
+            rgb(sheet.accents[3]),
+            rgb(sheet.accents[0]),
+            rgb(sheet.accents[1]),
+            scale=0.3,
+            roughness=0.6,
+            contrast=0.1,
+        ),
         "leaf": of("leaf", leaf, mix(leaf, white, 0.3), scale=0.15, roughness=0.6),
         "flower": of("leaf", rgb(sheet.accents[1]), accent, scale=0.05, roughness=0.7),
         "soil": of("soil", rgb("4a3626"), rgb("2f2218"), roughness=1.0),

@@ -31,7 +31,7 @@ COLOR_WORDS: dict[str, str] = {
 }  # fmt: skip
 
 FLOOR_WORDS: dict[str, tuple[str, float, tuple[str, str, str]]] = {
-    "marble": ("marble", 0.8, ("e9e4da", "b0a594", "c9beac")),
+    "marble": ("marble", 0.8, ("d3cabb", "8f8474", "b3a692")),
     "terracotta": ("terracotta", 0.3, ("b8683f", "80583f", "a05838")),
     "concrete": ("concrete", 1.2, ("a5a39e", "8a8883", "8a8883")),
     "mosaic": ("mosaic", 0.03, ("e0d6c0", "3f6a7a", "8a3f30")),
@@ -41,6 +41,8 @@ FLOOR_WORDS: dict[str, tuple[str, float, tuple[str, str, str]]] = {
     "parquet": ("parquet", 0.4, ("96693f", "503418", "ab7c4e")),
     "tiled": ("checker_tiles", 0.35, ("e9e4d8", "5a5a5c", "a09c92")),
 }
+MADE_OF: dict[str, tuple[str, ...]] = {"marble": ("sectile",), "mosaic": ("sectile",)}
+"""Floors that are of a word's material already, in a pattern of their own."""
 WALL_WORDS: dict[str, tuple[str, float, tuple[str, str, str]]] = {
     "brick": ("brick", 0.24, ("a05a44", "b8ab9a", "834936")),
     "stone": ("stone_blocks", 0.6, ("a09787", "6a6152", "877e6e")),
@@ -49,6 +51,7 @@ WALL_WORDS: dict[str, tuple[str, float, tuple[str, str, str]]] = {
     "wallpapered": ("wallpaper_damask", 0.6, ("8a9a8a", "a8b5a0", "c9b880")),
     "plaster": ("plaster", 1.0, ("e0d3bd", "c9b89c", "c9b89c")),
 }
+STRUCTURE = ("wall", "walls", "floor", "floors", "ceiling", "ceilings", "tile", "tiles", "board", "boards", "stone", "marble")
 NIGHT = ("night", "nocturnal", "midnight", "moonlit", "moonlight")
 DUSK = ("sunset", "dusk", "dawn", "sunrise", "evening", "twilight")
 DIM = ("dark", "gloomy", "moody", "dim", "candlelit", "haunted", "shadowy")
@@ -113,8 +116,12 @@ def code_of(color: Rgb) -> str:
 
 
 def tinted(sheet: Sheet, words: list[str]) -> Sheet:
-    """Colour words dye the textiles (the first word) and the accents (the second); "dark wood" and "light wood" the wood."""
-    colors = [COLOR_WORDS[word] for word in words if word in COLOR_WORDS]
+    """Colour words dye the textiles (the first word) and the accents (the second); "dark wood" and "light wood" the wood.
+
+    "white walls" says nothing of the textiles.
+    """
+    followed = zip(words, [*words[1:], ""])
+    colors = [COLOR_WORDS[word] for word, noun in followed if word in COLOR_WORDS and noun not in STRUCTURE]
     if colors:
         sheet = dataclasses.replace(
             sheet, fabric=colors[0], rug=colors[0], accents=(*colors, *sheet.accents)[: len(sheet.accents)]
@@ -134,6 +141,8 @@ def refinished(surfaces: Surfaces, kind: str, words: list[str]) -> Surfaces:
     if kind in ("bathroom", "kitchen"):
         return surfaces
     for material, scale, codes in [FLOOR_WORDS[word] for word in words if word in FLOOR_WORDS][:1]:
+        if surfaces.floor.material in MADE_OF.get(material, ()):
+            continue
         floor = Finish(material, tuple(rgb(c) for c in codes), scale, roughness=surfaces.floor.roughness)
         surfaces = dataclasses.replace(surfaces, floor=floor)
     for material, scale, codes in [WALL_WORDS[word] for word in words if word in WALL_WORDS][:1]:

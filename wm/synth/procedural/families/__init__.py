@@ -2,7 +2,7 @@
 
 from wm.synth.procedural.families.contemporary import INDUSTRIAL, MINIMALIST, MODERN, SCANDINAVIAN
 from wm.synth.procedural.families.historic import BAROQUE, GOTHIC, ROMAN, VICTORIAN
-from wm.synth.procedural.families.imagined import CYBERPUNK, SURREAL
+from wm.synth.procedural.families.imagined import CLOCKWORK, CYBERPUNK, SURREAL
 from wm.synth.procedural.families.regional import COASTAL, JAPANESE, MOROCCAN, RUSTIC
 from wm.synth.procedural.families.retro import ART_DECO, MIDCENTURY
 from wm.synth.procedural.sheet import Sheet
@@ -23,6 +23,7 @@ FAMILIES: dict[str, Sheet] = {
     "cyberpunk": CYBERPUNK,
     "japanese": JAPANESE,
     "moroccan": MOROCCAN,
+    "clockwork": CLOCKWORK,
     "surreal": SURREAL,
 }
 """Every family of the offline world; "modern" is the neutral one."""

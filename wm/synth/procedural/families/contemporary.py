@@ -9,7 +9,7 @@ SCANDINAVIAN = Sheet(
     wall=finish("paint", "f1efe9", scale=0.02, roughness=0.9),
     floor=finish("wood_planks", "d9bd93", "a58a63", "c7a878", scale=0.16, roughness=0.5, wear=0.1),
     ceiling=finish("paint", "fafaf7", scale=0.02, roughness=0.95),
-    trim=finish("painted_wood", "f7f6f2", "d9bd93", scale=0.05, roughness=0.5, wear=0.05),
+    trim=finish("wood", "d2b184", "a98a5e", scale=0.04, contrast=0.6, roughness=0.5, wear=0.05),
     wet_wall=finish("stone_tiles", "f2f4f3", "cfd6d4", "e6ebe9", scale=0.2, roughness=0.2),
     wet_floor=finish("stone_tiles", "a9adae", "84888a", "989c9e", scale=0.45, roughness=0.4),
     rooms=(

@@ -47,6 +47,54 @@ CYBERPUNK = Sheet(
     light=light("ff8ad0", 0.15, 12, 250, "5a4fd0", 0.45, "8ae8ff", 1.0),
 )
 
+CLOCKWORK = Sheet(
+    words=("clockwork", "clockmaker", "clock", "steampunk", "gears", "mechanical", "automaton", "orrery", "brass", "copper"),
+    form=Form("turned", "round_arch", "raised", "globe", softness=0.7, ornament=0.75),
+    wall=finish("wallpaper_gears", "2f4a42", "8a7848", scale=0.38, contrast=0.5, roughness=0.7),
+    wainscot=finish("panelling", "4f321f", "24150c", "68442b", scale=0.5, roughness=0.4),
+    wainscot_height=0.95,
+    floor=finish("herringbone", "6f482b", "2e1b0f", "875b38", scale=0.5, roughness=0.35),
+    ceiling=finish("plaster", "d9cba9", "bfae88", scale=1.2),
+    trim=finish("metal", "845c38", "d0a868", scale=0.05, roughness=0.4),
+    wet_wall=finish("stone_tiles", "6f9484", "3d5a50", "5f8474", scale=0.18, roughness=0.25),
+    wet_floor=finish("checker_tiles", "d3c6a6", "3b5a50", "2a3a33", scale=0.3, roughness=0.25),
+    rooms=(
+        (
+            "hall",
+            finish("wallpaper_gears", "d2c29a", "9a7a44", scale=0.5, contrast=0.75, roughness=0.75),
+            finish("checker_tiles", "d8cba9", "3f5f53", "2a3a33", scale=0.5, roughness=0.2),
+        ),
+        (
+            "bedroom",
+            finish("wallpaper_gears", "22384a", "86764e", scale=0.34, contrast=0.5, roughness=0.75),
+            finish("wood_planks", "64412a", "29180d", "7c5233", scale=0.15, roughness=0.4),
+        ),
+        (
+            "utility",
+            finish("brick", "8f5c44", "a3937c", "6f4233", scale=0.24),
+            finish("wood_planks", "6b4a30", "2b1a0f", "7f5a3a", scale=0.2, roughness=0.5, wear=0.4),
+        ),
+    ),
+    wood="7b4f2d",
+    dark_wood="4b2e1c",
+    painted="3f6257",
+    fabric="4c5f3c",
+    accent="b4733a",
+    leather="6e3f22",
+    linen="e8dcc0",
+    rug="54352a",
+    rug_border="b08d4c",
+    metal="4b4944",
+    brass="c0934a",
+    stone="b9ad94",
+    ceramic="5f8f80",
+    shade="ffd9a0",
+    accents=("5f8f80", "b4733a", "c0934a", "e2d3b0", "4c5f3c", "703a2a"),
+    upholstery="velvet",
+    leaf="4f7d3c",
+    light=light("ffe2b4", 0.8, 28, 205, "c6dae2", 0.65, "ffb962", 0.9),
+)
+
 SURREAL = Sheet(
     words=(
         "surreal",

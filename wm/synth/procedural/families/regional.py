@@ -75,7 +75,7 @@ COASTAL = Sheet(
     wall=finish("panelling", "eef2f0", "cfd8d8", "ffffff", scale=0.2, contrast=0.5, roughness=0.7),
     floor=finish("wood_planks", "cdb898", "a08c70", "bca684", scale=0.18, roughness=0.6, wear=0.5),
     ceiling=finish("painted_wood", "f7f9f8", "dfe6e6", scale=0.12, wear=0.1),
-    trim=finish("painted_wood", "ffffff", "cdb898", scale=0.05, wear=0.1),
+    trim=finish("wood", "c2b196", "94846a", scale=0.04, contrast=0.6, roughness=0.7, wear=0.2),
     wet_wall=finish("water_tiles", "8ec9cf", "e6f2f0", "c8eef0", scale=0.12, roughness=0.15),
     wet_floor=finish("stone_tiles", "e0d6c2", "bcb09a", "d2c7b0", scale=0.4, roughness=0.5),
     rooms=(

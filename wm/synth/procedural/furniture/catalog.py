@@ -6,6 +6,7 @@ from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture import (
     bath,
     beds,
+    clockwork,
     greenery,
     kitchen,
     lighting,
@@ -32,6 +33,7 @@ KINDS: dict[str, Kind] = {
     **tabletop.KINDS,
     **kitchen.KINDS,
     **bath.KINDS,
+    **clockwork.KINDS,
 }
 
 

@@ -5,9 +5,10 @@ import math
 import numpy as np
 
 from wm.synth.procedural.finish import Style
+from wm.synth.procedural.furniture.common import scaled
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.furniture.storage import vessel
-from wm.synth.procedural.solids import Point3, Real, Solid, ball, closed, lathe, shift, stretch, tube
+from wm.synth.procedural.solids import Point3, Real, Solid, ball, box, closed, lathe, rod, shift, stretch, tube
 
 
 def leaf(root: Point3, azimuth: Real, rise: Real, length: Real, width: Real, droop: Real) -> Solid:
@@ -143,7 +144,101 @@ def flowers(style: Style, rng: np.random.Generator, size: Size) -> Model:
     return Model(parts)
 
 
+def clipped(centre: Point3, radius: Real, rng: np.random.Generator, *, tall: Real = 1.0) -> Solid:
+    """A ball of clipped foliage: a sphere with a leafy unevenness."""
+    sphere = ball((0, 0, 0), 1.0, 26)
+    at = sphere.vertices * 9.0
+    phase = rng.uniform(0, 6, 3)
+    bumps = np.sin(at[:, 0] + phase[0]) * np.sin(at[:, 1] + phase[1]) + np.sin(at[:, 2] * 1.3 + phase[2]) * np.sin(1.7 * at[:, 0])
+    grown = sphere.vertices * (1 + 0.045 * bumps[:, None]) * [radius, radius, radius * tall]
+    return Solid(grown + np.asarray(centre), sphere.faces)
+
+
+def topiary(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    """A clipped tree in a pot: balls on a stem, or a cone."""
+    w, _, h = size
+    base = 0.26 * h
+    parts = pot(style, rng, min(0.4 * w, 0.2), base)
+    trunk = rod((0, 0, base - 0.03), (0, 0, h - 0.1), 0.02, 8)
+    if rng.random() < 0.6:
+        r = 0.46 * w
+        crown = [clipped((0, 0, h - r), r, rng), clipped((0, 0, h - 2.35 * r), 0.68 * r, rng)]
+    else:
+        tiers = 5
+        crown = []
+        for k in range(tiers):
+            share = k / (tiers - 1)
+            r = (0.46 - 0.3 * share) * w
+            low = base + 0.05 + 0.85 * r
+            crown.append(clipped((0, 0, low + share * (h - 0.55 * r - low)), r, rng, tall=0.75))
+    parts += of("dark_wood", trunk)
+    return Model(parts + of("rug", *crown, color=scaled(style.slot("leaf").colors[0], 0.8)))  # flecked as pile is, and green
+
+
+def wall_ivy(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    """A climber on a trellis that stands in a shallow trough on the wall."""
+    w, d, h = size
+    back = d / 2 - 0.012
+    slot = "brass" if style.form.ornament > 0.5 else "wood"
+    parts = of(slot, box((-w / 2, -d / 2, 0.0), (w / 2, d / 2, 0.16), 0.01))
+    parts += of("soil", box((-w / 2 + 0.015, -d / 2 + 0.015, 0.1), (w / 2 - 0.015, d / 2 - 0.015, 0.165), 0.0))
+    for x in np.linspace(-0.42 * w, 0.42 * w, 4):
+        parts += of(slot, rod((float(x), back, 0.14), (float(x), back, h - 0.25 * abs(float(x))), 0.006, 6))
+    for z in np.linspace(0.32, h - 0.2, 5):
+        parts += of(slot, rod((-0.45 * w, back - 0.004, float(z)), (0.45 * w, back - 0.004, float(z)), 0.005, 6))
+    leaves = []
+    for k in range(4):
+        start = (k - 1.5) * 0.24 * w
+        sway, top = float(rng.uniform(0.05, 0.12)) * w, h * float(rng.uniform(0.72, 0.98))
+        t = np.linspace(0, 1, 13)
+        path = np.stack([start + sway * np.sin(5 * t + 2.1 * k), back - 0.022 + 0 * t, 0.15 + t * (top - 0.15)], -1)
+        leaves.append(tube(path, 0.006, 5))
+        for j in range(34):
+            x, y, z = (float(np.interp(j / 33, t, path[:, axis])) for axis in range(3))
+            out = -math.pi / 2 + float(rng.uniform(-1.15, 1.15))
+            long = float(rng.uniform(0.09, 0.15))
+            leaves.append(ivy_leaf((x, y, z), out, long, float(rng.uniform(0.1, 0.9)), room=y + d / 2))
+    return Model(parts + of("leaf", *leaves))
+
+
+def ivy_leaf(root: Point3, azimuth: Real, length: Real, rise: Real, *, room: Real) -> Solid:
+    """A broad leaf that comes off a climber and hangs, no further than `room` metres towards -y."""
+    c, s = math.cos(azimuth), math.sin(azimuth)
+    reach = min(length, 0.95 * room / max(-s, 0.2))
+    points: list[Point3] = [
+        (root[0] + c * reach * q, root[1] + s * reach * q, root[2] + length * (0.5 * rise * q - 0.9 * q * q))
+        for q in (0.0, 0.45, 1.0)
+    ]
+    return blade(points, [0.15 * length, 0.42 * length, 0.02 * length], (-s, c))
+
+
+def planter(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    """A long trough of ferns and grasses."""
+    w, d, h = size
+    rim = 0.42 * h
+    slot = "brass" if style.form.ornament > 0.5 else "wood"
+    parts = of(
+        slot, box((-w / 2, -d / 2, 0.03), (w / 2, d / 2, rim), 0.01), box((-w / 2, -d / 2, rim - 0.04), (w / 2, d / 2, rim), 0.01)
+    )
+    parts += of(
+        "dark_metal", *(box((s * 0.4 * w - 0.03, -0.4 * d, 0.0), (s * 0.4 * w + 0.03, 0.4 * d, 0.04), 0.004) for s in (-1.0, 1.0))
+    )
+    parts += of("soil", box((-w / 2 + 0.02, -d / 2 + 0.02, rim - 0.05), (w / 2 - 0.02, d / 2 - 0.02, rim + 0.006), 0.0))
+    leaves = []
+    for k in range(5):
+        x = (k - 2) * 0.19 * w
+        for j in range(12):
+            long = min(float(rng.uniform(0.7, 1.0)) * (h - rim), 0.5)
+            azimuth = 2.4 * j + k
+            reach = long * (0.55 if abs(math.sin(azimuth)) > 0.6 else 0.9)
+            leaves.append(leaf((x, 0.0, rim - 0.01), azimuth, float(rng.uniform(1.15, 1.5)), min(reach, 0.9 * d), 0.03, 1.3))
+    return Model(parts + of("leaf", *leaves))
+
+
 KINDS = {
+    "topiary": Kind(topiary, "floor", (0.44, 0.44, 1.1), (0.54, 0.54, 1.5)),
+    "planter": Kind(planter, "floor", (0.8, 0.32, 0.75), (1.1, 0.38, 0.95)),
+    "wall ivy": Kind(wall_ivy, "wall", (0.7, 0.18, 1.5), (1.0, 0.22, 2.0)),
     "plant": Kind(plant, "floor", (0.55, 0.55, 1.0), (0.75, 0.75, 1.5)),
     "flowers": Kind(flowers, "object", (0.2, 0.2, 0.34), (0.26, 0.26, 0.44)),
     "potted plant": Kind(small_plant, "object", (0.22, 0.22, 0.26), (0.3, 0.3, 0.36)),

@@ -7,42 +7,16 @@ import numpy as np
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture.common import COLUMN, TURNED, candle
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.synth.procedural.furniture.shades import shade, standing, wheel_of_globes
 from wm.synth.procedural.outlines import arch
-from wm.synth.procedural.solids import Real, ball, box, extrude, lathe, rod, rounded_box, shell, shift, tube, turn
-
-
-def shade(kind: str, radius: Real, height: Real, z: Real) -> list[Part]:
-    """A lamp shade standing on z: an open shell around a bulb, or a closed globe."""
-    if kind == "globe":
-        return of("lamp_shade", ball((0, 0, z + radius), radius, 24))
-    if kind == "lantern":
-        side = radius * 0.75
-        parts = of(
-            "lamp_shade",
-            rounded_box((-side * 0.86, -side * 0.86, z + 0.02), (side * 0.86, side * 0.86, z + height - 0.02), 0.01, 1),
-        )
-        for sx in (-1.0, 1.0):
-            for sy in (-1.0, 1.0):
-                parts += of(
-                    "dark_metal",
-                    box((sx * side - 0.009, sy * side - 0.009, z), (sx * side + 0.009, sy * side + 0.009, z + height)),
-                )
-        for low in (z, z + height - 0.03):
-            parts += of("dark_metal", box((-side - 0.012, -side - 0.012, low), (side + 0.012, side + 0.012, low + 0.025)))
-        return parts
-    top = {"cone": 0.5, "candle": 0.6, "tripod": 0.6}.get(kind, 0.86) * radius
-    outer = [(radius, z), (top, z + height)]
-    if kind in ("cone", "candle", "tripod"):
-        outer = [(radius, z), (0.78 * radius, z + 0.35 * height), (0.62 * radius, z + 0.7 * height), (top, z + height)]
-    bulb = ball((0, 0, z + 0.45 * height), 0.035)
-    return [*of("lamp_shade", shell(outer, 0.004)), *of("bulb", bulb)]
+from wm.synth.procedural.solids import ball, extrude, lathe, rod, shell, shift, tube, turn
 
 
 def floor_lamp(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A standing lamp: tripod, arched or on a turned stem."""
     w, _, h = size
     r = w / 2
-    kind = style.form.lamp
+    kind = standing(style)
     tall = 0.3 if kind != "globe" else 2 * min(r, 0.16)
     under = h - tall
     if style.form.legs == "tapered" or kind == "lantern":
@@ -65,20 +39,20 @@ def floor_lamp(style: Style, rng: np.random.Generator, size: Size) -> Model:
         parts += of("brass", lathe([(0.006 + 0.022 * q, 0.08 + z * (under - 0.04)) for q, z in TURNED], 16, smooth=1))
     else:
         parts = of("dark_metal", lathe([(0.14, 0.0), (0.14, 0.018), (0.012, 0.024), (0.012, under + 0.1)], 28))
-    return Model(parts + shade(kind, min(r, 0.16) if kind == "globe" else r * 0.95, tall, under))
+    return Model(parts + shade(style, kind, min(r, 0.16) if kind == "globe" else r * 0.95, tall, under))
 
 
 def table_lamp(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A lamp for a table top: vase, column or stem below the shade."""
     w, _, h = size
     r = w / 2
-    kind = "cone" if style.form.lamp in ("candle", "tripod") else style.form.lamp
+    kind = "cone" if style.form.lamp in ("candle", "tripod") else standing(style)
     tall = 0.42 * h if kind != "globe" else 2 * min(r, 0.3 * h)
     under = h - tall
     if kind == "lantern":
         return Model(
             of("dark_metal", lathe([(0.06, 0.0), (0.06, 0.015), (0.02, 0.02), (0.02, under + 0.01)], 20))
-            + shade(kind, r, tall, under)
+            + shade(style, kind, r, tall, under)
         )
     if style.form.legs == "column":
         parts = of("marble", lathe([(0.045 * q + 0.01, z * under) for q, z in COLUMN], 24))
@@ -95,7 +69,7 @@ def table_lamp(style: Style, rng: np.random.Generator, size: Size) -> Model:
             color=pick(rng, style.accents),
         )
     parts += of("brass", rod((0, 0, under - 0.01), (0, 0, under + 0.12), 0.006))
-    return Model(parts + shade(kind, min(r, 0.3 * h) if kind == "globe" else r, tall, under))
+    return Model(parts + shade(style, kind, min(r, 0.3 * h) if kind == "globe" else r, tall, under))
 
 
 def chandelier(style: Style, rng: np.random.Generator, size: Size) -> Model:
@@ -149,16 +123,27 @@ def pendant(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A single hanging lamp: globe, dome, drum or lantern on a cord."""
     w, _, h = size
     kind = style.form.lamp
-    tall = {"globe": w, "drum": 0.5 * w, "lantern": 0.9 * w}.get(kind, 0.55 * w)
+    tall = {"globe": w, "drum": 0.5 * w, "lantern": 0.9 * w, "paper": 0.72 * w, "bowl": 0.38 * w}.get(kind, 0.55 * w)
     cord = [
         *of("dark_metal", rod((0, 0, tall - 0.02), (0, 0, h - 0.02), 0.005, 6)),
         *of("dark_metal", lathe([(0.05, h - 0.03), (0.05, h)], 16)),
     ]
     cord += of("dark_metal", lathe([(0.025, tall - 0.015), (0.025, tall + 0.04)], 12))
     if kind == "globe":
-        return Model(cord + of("bulb", ball((0, 0, w / 2), w / 2, 24)))
+        return Model(cord + of("lamp_shade" if style.form.ornament > 0.3 else "bulb", ball((0, 0, w / 2), w / 2, 24)))
     if kind == "lantern":
-        return Model(cord + shade("lantern", 0.62 * w, tall, 0.0))
+        return Model(cord + shade(style, "lantern", 0.62 * w, tall, 0.0))
+    if kind in ("paper", "rattan", "dome"):
+        return Model(cord + shade(style, kind, w / 2, tall, 0.0))
+    if kind == "cluster":
+        return Model(wheel_of_globes(w, h))
+    if kind == "bowl":
+        chains = [
+            rod((0.46 * w * math.cos(a), 0.46 * w * math.sin(a), tall - 0.02), (0, 0, h - 0.02), 0.006, 6)
+            for a in (0.3, 2.4, 4.5)
+        ]
+        parts = of("brass", *chains, lathe([(0.06, h - 0.03), (0.05, h)], 16), ball((0, 0, 0.012), 0.014, 8))
+        return Model(parts + [Part(p.slot, shift(p.solid, (0, 0, 0.015)), p.color) for p in shade(style, kind, w / 2, tall, 0.0)])
     if style.family in ("industrial", "midcentury"):
         outer = [(w / 2, 0.0), (0.46 * w, 0.35 * tall), (0.26 * w, 0.8 * tall), (0.05 * w, tall)]
         return Model(cord + of("dark_metal", shell(outer, 0.006)) + of("bulb", ball((0, 0, 0.35 * tall), 0.05)))
@@ -166,7 +151,7 @@ def pendant(style: Style, rng: np.random.Generator, size: Size) -> Model:
         rod((0, 0, 0.93 * tall), (0.4 * w * math.cos(a), 0.4 * w * math.sin(a), 0.93 * tall), 0.004, 5) for a in (0.3, 2.4, 4.5)
     ]
     return Model(
-        cord + shade(kind, w / 2, tall, 0.0) + of("dark_metal", *spokes, rod((0, 0, 0.45 * tall), (0, 0, tall), 0.006, 6))
+        cord + shade(style, kind, w / 2, tall, 0.0) + of("dark_metal", *spokes, rod((0, 0, 0.45 * tall), (0, 0, tall), 0.006, 6))
     )
 
 
@@ -214,7 +199,7 @@ def sconce(style: Style, rng: np.random.Generator, size: Size) -> Model:
     )
     if style.form.lamp in ("candle", "tripod"):
         return Model(parts + candle(0, -reach, 0.29 * h + 0.021, 0.45 * h))
-    lamp = shade("globe" if style.form.lamp == "globe" else "cone", 0.07, 0.5 * h, 0.29 * h + 0.03)
+    lamp = shade(style, "globe" if style.form.lamp == "globe" else "cone", 0.07, 0.5 * h, 0.29 * h + 0.03)
     return Model(parts + [Part(p.slot, shift(p.solid, (0, -reach, 0)), p.color) for p in lamp])
 
 

@@ -3,10 +3,11 @@
 import numpy as np
 
 from wm.synth.procedural.finish import Style
+from wm.synth.procedural.furniture.classical import couch, klismos_armchair, klismos_back, sabre_legs
 from wm.synth.procedural.furniture.common import finial, frame_wood, leg, legs, tracery
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.outlines import arch, frame, rounded
-from wm.synth.procedural.solids import Real, Solid, box, extrude, lathe, puff, rod, rounded_box, shift, tube, turn
+from wm.synth.procedural.solids import Real, box, extrude, lathe, puff, rod, rounded_box, shift, tube, turn
 
 
 def lounge(style: Style, rng: np.random.Generator, size: Size, seats: int) -> Model:
@@ -87,10 +88,14 @@ def lounge_back(
 
 
 def armchair(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    if style.form.back == "klismos":
+        return klismos_armchair(style, rng, size, wood=frame_wood(style))
     return lounge(style, rng, size, 1)
 
 
 def sofa(style: Style, rng: np.random.Generator, size: Size) -> Model:
+    if style.form.back == "klismos":
+        return couch(style, rng, size, wood=frame_wood(style))
     return lounge(style, rng, size, 2 if size[0] < 1.75 else 3)
 
 
@@ -123,22 +128,6 @@ def chair(style: Style, rng: np.random.Generator, size: Size) -> Model:
     return Model(parts + backs)
 
 
-def sabre_legs(w: Real, d: Real, seat: Real) -> list[Solid]:
-    """Legs of a klismos: swept forward and back."""
-    solids = []
-    for sx in (-1.0, 1.0):
-        for sy in (-1.0, 1.0):
-            x, y = sx * (w / 2 - 0.03), sy * (d / 2 - 0.03)
-            path = [
-                (x, y + sy * 0.06, 0.0),
-                (x, y - sy * 0.005, seat * 0.4),
-                (x, y - sy * 0.01, seat * 0.75),
-                (x, y, seat - 0.02),
-            ]
-            solids.append(tube(path, [0.014, 0.018, 0.022, 0.026], 10, smooth=2))
-    return solids
-
-
 def chair_back(style: Style, w: Real, d: Real, seat: Real, h: Real, wood: str) -> list[Part]:
     """The upright back of a chair from the seat to the height h, before it leans."""
     y0, y1 = d / 2 - 0.045, d / 2 - 0.012
@@ -163,17 +152,7 @@ def chair_back(style: Style, w: Real, d: Real, seat: Real, h: Real, wood: str) -
             *of("fabric", extrude(pad, y0 + 0.004, y1 - 0.006, "y"), extrude(pad.buffer(-0.03), y0 - 0.012, y1 - 0.01, "y")),
         ]
     if kind == "klismos":
-        bow = [
-            (-w / 2 + 0.015, d / 2 - 0.10, 0),
-            (-w / 4, d / 2 - 0.03, 0),
-            (0, d / 2 - 0.012, 0),
-            (w / 4, d / 2 - 0.03, 0),
-            (w / 2 - 0.015, d / 2 - 0.10, 0),
-        ]
-        board = shift(tube([(x, y, 0) for x, y, _ in bow], 0.011, 10, smooth=3, flatten=1.0), (0, 0, 0))
-        high = board.vertices * [1, 1, 7.0]
-        posts = [tube([(x, y, base), (x, y, h - 0.05)], 0.014, 8) for x, y, _ in (bow[0], bow[2], bow[4])]
-        return of(wood, Solid(high + np.array([0.0, 0.0, h - 0.085]), board.faces), *posts)
+        return of(wood, *klismos_back(w, d, seat, h))
     posts = [
         tube([(s * (w / 2 - 0.025), d / 2 - 0.03, base), (s * (w / 2 - 0.025), d / 2 - 0.03, h - 0.01)], [0.019, 0.014], 10)
         for s in (-1.0, 1.0)

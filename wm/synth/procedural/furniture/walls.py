@@ -7,6 +7,7 @@ import shapely
 
 from wm.synth.procedural.finish import Rgb, Style
 from wm.synth.procedural.furniture.common import COLUMN, frame_wood
+from wm.synth.procedural.furniture.pictures import subject
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, Top, of
 from wm.synth.procedural.outlines import arch, frame, rectangle, rounded
 from wm.synth.procedural.solids import Point3, Real, ball, box, extrude, lathe, rod, rounded_box, shift, stretch, turn
@@ -31,44 +32,12 @@ def frame_slot(style: Style) -> str:
 
 
 def picture(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A framed painting: a passe-partout, and a simple composition of shapes in the accents."""
+    """A framed painting in a passe-partout."""
     w, d, h = size
     border = 0.07 if style.form.ornament > 0.4 else 0.025
     parts = framed(style, rectangle(w, h), d, border, "paper", wood=frame_slot(style))
     mat = border if style.form.ornament > 0.4 else border + 0.12 * min(w, h)
-    x, low, high = w / 2 - mat, mat, h - mat
-    face = -0.002
-    ground, first, second = (style.accents[int(k)] for k in rng.permutation(len(style.accents))[:3])
-    parts += of("painting", box((-x, face - 0.003, low), (x, 0.002, high), 0.0), color=ground)
-    horizon = low + (high - low) * float(rng.uniform(0.3, 0.55))
-    subject = int(rng.integers(3))
-    if subject == 0:  # hills and a sun
-        t = np.linspace(-x, x, 13)
-        phase, rise = float(rng.uniform(0, 6)), 0.12 * (high - low)
-        hill = [(-x, low), (x, low), *((float(a), float(horizon + rise * math.sin(5 * a / w + phase))) for a in t[::-1])]
-        parts += of("painting", extrude(hill, face - 0.0055, face - 0.001, "y"), color=first)
-        r = 0.11 * min(w, h)
-        sun = lathe([(r, -0.0015), (r, 0.0015)], 20)
-        parts += of(
-            "painting",
-            shift(turn(sun, "x", 90), (float(rng.uniform(-0.5, 0.5)) * x, face - 0.0045, high - 1.8 * r)),
-            color=second,
-        )
-    elif subject == 1:  # a figure
-        r = 0.15 * (high - low)
-        head = shift(turn(lathe([(0.8 * r, -0.002), (0.8 * r, 0.002)], 20), "x", 90), (0, face - 0.005, low + 3.0 * r))
-        shoulders = extrude(arch("round", min(3.6 * r, 1.9 * x), 2.2 * r, at=(0, low)), face - 0.006, face - 0.001, "y")
-        parts += [*of("painting", shoulders, color=first), *of("painting", head, color=second)]
-    else:  # three blocks
-        for k in range(3):
-            a = -x + (0.1 + 0.27 * k) * 2 * x
-            top = low + (high - low) * float(rng.uniform(0.3, 0.85))
-            parts += of(
-                "painting",
-                box((a, face - 0.0055 - 0.0015 * k, low + 0.08 * (high - low)), (a + 0.5 * x, face - 0.001, top), 0.0),
-                color=(first, second, ground)[k] if k < 2 else style.accents[int(rng.integers(len(style.accents)))],
-            )
-    return Model(parts)
+    return Model(parts + subject(style, rng, half=w / 2 - mat, low=mat, high=h - mat, face=-0.004))
 
 
 def mirror(style: Style, rng: np.random.Generator, size: Size) -> Model:
@@ -141,7 +110,7 @@ def clock(style: Style, rng: np.random.Generator, size: Size) -> Model:
         wood, extrude(hood, -d / 2 + 0.02, d / 2, "y"), rounded_box((-w / 2, -d / 2, h - 0.54), (w / 2, d / 2, h - 0.5), 0.012, 1)
     )
     window = rectangle(w - 0.24, h - 1.15, at=(0.0, 0.52))
-    parts += of("glass", extrude(window, -d / 2 + 0.043, -d / 2 + 0.06, "y")) + of(
+    parts += of("lacquer", extrude(window, -d / 2 + 0.043, -d / 2 + 0.06, "y")) + of(
         "brass", extrude(window.buffer(0.015, join_style="mitre").difference(window), -d / 2 + 0.038, -d / 2 + 0.06, "y")
     )
     parts += of(

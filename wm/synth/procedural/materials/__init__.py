@@ -1,7 +1,7 @@
 """Procedural materials: what each name of `wm.synth.procedural.finish.MATERIALS` looks like."""
 
 from wm.synth.procedural.finish import Finish
-from wm.synth.procedural.materials import cloth, fittings, stone, wall, wood
+from wm.synth.procedural.materials import cloth, fittings, gears, stone, wall, wood
 from wm.synth.procedural.materials.surface import Material, Points, Surface, flat_points
 
 _TABLE: dict[str, Material] = {
@@ -9,6 +9,8 @@ _TABLE: dict[str, Material] = {
     "paint": wall.paint,
     "wallpaper_damask": wall.wallpaper_damask,
     "wallpaper_stripe": wall.wallpaper_stripe,
+    "wallpaper_gears": gears.wallpaper_gears,
+    "fresco": wall.fresco,
     "panelling": wood.panelling,
     "brick": stone.brick,
     "concrete": stone.concrete,
@@ -17,6 +19,7 @@ _TABLE: dict[str, Material] = {
     "stone_tiles": stone.stone_tiles,
     "stone_blocks": stone.stone_blocks,
     "checker_tiles": stone.checker_tiles,
+    "sectile": stone.sectile,
     "water_tiles": stone.water_tiles,
     "marble": stone.marble,
     "wood_planks": wood.wood_planks,

@@ -119,6 +119,29 @@ def mosaic(p: Points, finish: Finish, seed: int) -> Surface:
     )
 
 
+def sectile(p: Points, finish: Finish, seed: int) -> Surface:
+    """Marble inlay: squares framed in the base, in them by turns a disc and a lozenge of the second and third marble."""
+    side = finish.scale
+    column, row, du, dv = tile_grid(p, side, side)
+    odd = (column + row) % 2 == 1
+    soft = np.maximum(p.footprint, F32(0.004))
+    square = np.maximum(np.abs(du), np.abs(dv))
+    figure = np.where(odd, np.hypot(du, dv), (np.abs(du) + np.abs(dv)) * F32(0.80))
+    share = figure / F32(side)
+    first, second, third = ink(finish, 0), ink(finish, 1, shade=0.45), ink(finish, 2, shade=0.6)
+    ours, others = (np.where(odd, a, b) for a, b in ((second, third), (third, second)))
+    color = mix(first, ours, edge(F32(0.37 * side) - figure, soft))
+    color = mix(color, first * F32(1.05), edge(F32(0.25 * side) - figure, soft) * (share < 0.3))
+    color = mix(color, others, edge(F32(0.12 * side) - figure, soft))
+    color = mix(color, second, edge(square - F32(0.455 * side), soft))
+    offset = random_cells(column * 4 + (share < 0.37) + (share < 0.25), row, seed=seed)  # every piece from its own block
+    body = dataclasses.replace(p, x=p.x + offset * F32(9), y=p.y + offset * F32(5))
+    stone = dataclasses.replace(finish, scale=0.35)
+    color = _marble_color(body, stone, seed + 3, color, color * F32(0.45), color * F32(0.75))
+    color = vary(color, piece_tone(column, row, seed=seed + 2, amount=0.08 * finish.contrast) * visible(side, p.footprint))
+    return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.004, joint_color=first * F32(0.5), relief=0.001)
+
+
 def water_tiles(p: Points, finish: Finish, seed: int) -> Surface:
     """Glazed tiles under a net of caustic light."""
     side = finish.scale

@@ -6,7 +6,7 @@ import numpy as np
 
 from wm.synth.procedural.finish import Finish
 from wm.synth.procedural.materials.surface import F32, Points, Surface, ink, mix, stains, vary
-from wm.synth.procedural.noise import cells, edge, fbm, line
+from wm.synth.procedural.noise import cells, edge, fbm, line, visible
 
 
 def plaster(p: Points, finish: Finish, seed: int) -> Surface:
@@ -56,6 +56,35 @@ def wallpaper_stripe(p: Points, finish: Finish, seed: int) -> Surface:
     return Surface(albedo=vary(color, 0.1 * stains(p, finish, seed=seed + 6, size=1.0)), roughness=finish.roughness)
 
 
+FRESCO_BAND = 0.24
+"""Metres of the upright bands that part the fields of a fresco."""
+
+
+def fresco(p: Points, finish: Finish, seed: int) -> Surface:
+    """Painted plaster after Pompeii: fields of two colours by turns, a fine line and a medallion in each, bands between."""
+    pitch = max(finish.scale, 0.5)
+    column, du = cells(p.u, pitch)
+    soft = np.maximum(p.footprint, F32(0.006))
+    off = F32(pitch / 2) - np.abs(du)  # metres from the middle of the nearest band
+    field = mix(ink(finish, 0), ink(finish, 1), (column % 2).astype(F32))
+    pale = ink(finish, 2, shade=1.6)
+    inset = off - F32(FRESCO_BAND / 2 + 0.09)
+    color = mix(field, pale, F32(0.8) * edge(F32(0.006) - np.abs(inset), soft))
+    radius = np.hypot(du, (p.v - F32(1.75)) * F32(0.9))
+    ring = np.maximum(edge(F32(0.008) - np.abs(radius - F32(0.19)), soft), edge(F32(0.12) - radius, soft) * F32(0.5))
+    petals = F32(0.10) + F32(0.03) * np.cos(F32(6) * np.arctan2(p.v - F32(1.75), du))
+    here = F32(0.55) * (column % 3 == 0)
+    color = mix(color, pale, here * np.maximum(ring, edge(petals - radius, soft)))
+    round_ = np.clip(off / F32(FRESCO_BAND / 2), 0, 1)  # a painted column: lit in its middle, fluted
+    flute = np.cos(np.clip(off, 0, FRESCO_BAND) * F32(2 * np.pi / 0.045))
+    shaft = pale * (F32(0.72) + F32(0.10) * flute - F32(0.30) * round_**2)
+    color = mix(color, shaft, edge(F32(FRESCO_BAND / 2) - off, soft) * visible(0.12, p.footprint))
+    blotch = fbm((p.u, p.v), wavelength=0.7, octaves=4, footprint=p.footprint, seed=seed, gain=0.55)
+    grain = fbm((p.u, p.v), wavelength=0.05, octaves=2, footprint=p.footprint, seed=seed + 3)
+    color = vary(color, finish.contrast * (0.12 * blotch + 0.04 * grain) + 0.12 * stains(p, finish, seed=seed + 6, size=1.2))
+    return Surface(albedo=color, roughness=finish.roughness, height=blotch * F32(8e-4))
+
+
 def painting(p: Points, finish: Finish, seed: int) -> Surface:
     """A painted canvas: a pale sky over hills, and shapes in the accent colour, in loose strokes."""
     size = max(finish.scale, 0.1)
@@ -64,7 +93,7 @@ def painting(p: Points, finish: Finish, seed: int) -> Surface:
     ground = edge(hills * F32(0.35 * size) - p.v + F32(0.06) * stroke, np.maximum(p.footprint, F32(0.015)))
     shapes = fbm((p.u, p.v), wavelength=size, octaves=2, footprint=p.footprint, seed=seed + 5)
     color = mix(ink(finish, 0), ink(finish, 1, shade=0.5), F32(finish.contrast) * ground)
-    color = mix(color, ink(finish, 2, shade=0.3), np.clip((shapes - F32(0.25)) * F32(5), 0, 1) * F32(0.75))
+    color = mix(color, ink(finish, 2, shade=0.3), np.clip((shapes - F32(0.25)) * F32(5), 0, 1) * F32(0.75 * finish.contrast))
     return Surface(albedo=vary(color, 0.14 * stroke), roughness=finish.roughness)
 
 

@@ -1,8 +1,8 @@
 """How a room's structure is dressed: every planar surface as a sheet of texels, before light falls on it."""
 
-from wm.synth.procedural.materials.wall import trim_profile
 from wm.synth.procedural.surfaces.level import ceiling_sheet, floor_sheet
-from wm.synth.procedural.surfaces.sheet import Chart, Gap, Interior, Sheet, grid, lay, with_cavities
+from wm.synth.procedural.surfaces.reveal import reveal_sheet
+from wm.synth.procedural.surfaces.sheet import Chart, Gap, Interior, Sheet, grid
 from wm.synth.procedural.surfaces.wall import wall_sheet
 from wm.synth.procedural.surfaces.window import pane_sheet
 from wm.types import SurfaceKind
@@ -22,9 +22,7 @@ def dress(chart: Chart, gaps: tuple[Gap, ...], interior: Interior) -> Sheet:
         return ceiling_sheet(chart, interior)
     if chart.kind == SurfaceKind.PANE:
         return pane_sheet(chart, interior)
-    s, t = grid(chart)  # jambs, heads and thresholds: the trim, its grain along the longer side
-    along, across = (s, t) if chart.shape[1] >= chart.shape[0] else (t, s)
-    return with_cavities(lay(chart, trim_profile(interior.surfaces.trim), along, across, seed=interior.seed + 53), chart.texel)
+    return reveal_sheet(chart, interior)
 
 
 __all__ = ["Chart", "Gap", "Interior", "Sheet", "dress", "grid"]

@@ -40,6 +40,7 @@ DESIGNS: dict[str, dict[str, str]] = {
     "industrial": {"": "beams", "bathroom": "plain"},
     "japanese": {"": "lattice", "bathroom": "boards"},
     "moroccan": {"": "coffers", "bathroom": "plain", "corridor": "beams"},
+    "clockwork": {"": "coffers", "hall": "glazed", "bathroom": "plain"},
     "surreal": {"": "sky", "bathroom": "plain"},
 }
 
@@ -57,12 +58,12 @@ def floor_sheet(chart: Chart, interior: Interior) -> Sheet:
     return with_cavities(sheet, chart.texel)
 
 
-BORDERED = ("herringbone", "parquet", "mosaic", "checker_tiles", "marble", "stone_tiles")
+BORDERED = ("herringbone", "parquet", "mosaic", "checker_tiles", "marble", "stone_tiles", "sectile")
 """Floors that ornate styles frame with a border."""
 
 
 def ceiling_sheet(chart: Chart, interior: Interior) -> Sheet:
-    """A ceiling after the family's habit: plain, boards, beams, coffers, lattice, panels, a rosette, or a painted sky."""
+    """A ceiling after the family's habit: plain, boards, ribs of several sorts, plasterwork, a painted sky, or glazing."""
     designs = DESIGNS.get(interior.style.family, {"": "plain"})
     design = designs.get(interior.kind, designs[""])
     x, y = _world(chart)
@@ -80,6 +81,9 @@ def ceiling_sheet(chart: Chart, interior: Interior) -> Sheet:
         sheet = _ribs(chart, sheet, trim, x, y, low, high, wall, across=pitch, along=pitch, width=width)
     elif design == "sky":
         sheet = _sky(chart, sheet, trim, x, y, wall, interior)
+    elif design == "glazed":
+        sheet = _sky(chart, sheet, trim, x, y, wall, interior)
+        sheet = _ribs(chart, sheet, trim, x, y, low, high, wall, across=0.85, along=0.85, width=0.06)
     if design in ("rosette", "panels"):
         sheet = _mouldings(chart, sheet, wall, (0.32, 0.52))
     if design == "rosette" and min(high - low) > 2.4:

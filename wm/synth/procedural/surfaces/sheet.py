@@ -116,6 +116,22 @@ def with_cavities(sheet: Sheet, texel: float, *, reach: float = 0.03, strength: 
     )
 
 
+def cropped(sheet: Sheet, window: tuple[slice, slice]) -> Sheet:
+    """The part of a sheet in a window of rows and columns, as views."""
+    return dataclasses.replace(
+        sheet,
+        albedo=sheet.albedo[:, *window], roughness=sheet.roughness[window], height=sheet.height[window],
+        emission=None if sheet.emission is None else sheet.emission[:, *window],
+    )  # fmt: skip
+
+
+def pasted(sheet: Sheet, window: tuple[slice, slice], part: Sheet) -> Sheet:
+    """The sheet with `part`, which gives no light of its own, in a window of rows and columns."""
+    albedo, roughness, height = sheet.albedo.copy(), sheet.roughness.copy(), sheet.height.copy()
+    albedo[:, *window], roughness[window], height[window] = part.albedo, part.roughness, part.height
+    return dataclasses.replace(sheet, albedo=albedo, roughness=roughness, height=height)
+
+
 def inside_distance(polygon: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """[h, w] metres from (x, y) to the nearest edge of the polygon."""
     nearest = np.full(x.shape, np.inf, F32)

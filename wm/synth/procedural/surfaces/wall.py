@@ -9,8 +9,25 @@ from wm.synth.procedural.materials import flat_points
 from wm.synth.procedural.materials.wall import trim_profile
 from wm.synth.procedural.materials.wood import NARROW, framed_panel
 from wm.synth.procedural.noise import cells, edge
-from wm.synth.procedural.surfaces.sheet import F32, Chart, Gap, Interior, Sheet, as_sheet, grid, lay, over, shaded, with_cavities
+from wm.synth.procedural.surfaces.frieze import frieze
+from wm.synth.procedural.surfaces.sheet import (
+    F32,
+    Chart,
+    Gap,
+    Interior,
+    Sheet,
+    as_sheet,
+    cropped,
+    grid,
+    lay,
+    over,
+    pasted,
+    shaded,
+    with_cavities,
+)
 
+CASED = 0.14  # metres beside an opening that its casing covers at most
+BESIDE = 0.5  # metres beside an opening that its casing and the shadow of that reach at most
 STILE = 0.085  # metres: frame between two panels of a wainscot
 
 
@@ -28,9 +45,12 @@ def wall_sheet(chart: Chart, gaps: tuple[Gap, ...], interior: Interior) -> Sheet
     if surfaces.wainscot is not None and surfaces.wainscot_height > 0:
         sheet = _wainscot(chart, sheet, trim, s, z, gaps, interior, surfaces.wainscot, skirting)
     sheet = _band(sheet, trim, skirting - z, depth=0.018, nosing=0.035, texel=chart.texel)
+    sheet = frieze(chart, sheet, s, z, interior, top=interior.height - cornice_depth(ornament) - 0.02)
     sheet = _cornice(chart, sheet, trim, z, interior)
     for gap in gaps:
-        sheet = _casing(chart, sheet, trim, s, z, gap, width=0.08 + 0.05 * ornament)
+        window = (slice(None), slice(*np.searchsorted(s[0], [gap.left - BESIDE, gap.right + BESIDE])))
+        part = _casing(chart, cropped(sheet, window), cropped(trim, window), s[window], z[window], gap, interior)
+        sheet = pasted(sheet, window, part)
     return with_cavities(sheet, chart.texel)
 
 
@@ -73,7 +93,7 @@ def _stretches(
     s: np.ndarray, gaps: tuple[Gap, ...], length: float, top: float, width: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Panel number, metres from its middle and its width, for panels of about `width` between the openings below `top`."""
-    cuts = sorted((gap.left - 0.12, gap.right + 0.12) for gap in gaps if gap.sill < top)
+    cuts = sorted((gap.left - CASED, gap.right + CASED) for gap in gaps if gap.sill < top)
     edges, start = [], 0.0
     for left, right in [*cuts, (length, length)]:
         if left - start > 0.05:
@@ -91,12 +111,17 @@ def _stretches(
     return column, across, widths
 
 
+def cornice_depth(ornament: float) -> float:
+    """Metres that a cornice reaches down from the ceiling."""
+    return 0.05 + 0.15 * ornament
+
+
 def _cornice(chart: Chart, sheet: Sheet, trim: Sheet, z: np.ndarray, interior: Interior) -> Sheet:
     """A run moulding under the ceiling: cove and bead, deeper in ornate styles; plain styles get a thin line or none."""
     ornament = interior.style.form.ornament
     if ornament < 0.15:
         return sheet
-    depth = 0.05 + 0.15 * ornament
+    depth = cornice_depth(ornament)
     below = F32(interior.height) - z  # metres under the ceiling
     cove = np.clip(F32(1) - below / F32(depth), 0, 1)
     profile = F32(0.35 * depth) * cove**2 + F32(0.010) * edge(F32(0.03) - np.abs(below - F32(depth - 0.03)), 0.02)
@@ -107,19 +132,33 @@ def _cornice(chart: Chart, sheet: Sheet, trim: Sheet, z: np.ndarray, interior: I
     return shaded(sheet, 1 - 0.22 * np.exp(-np.maximum(below - F32(depth), 0) / 0.07) * (below > depth))
 
 
-def _casing(chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarray, gap: Gap, *, width: float) -> Sheet:
+def _casing(chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarray, gap: Gap, interior: Interior) -> Sheet:
+    """An architrave around an opening: a stepped band with a bead at its inner and a back band at its outer edge.
+
+    Doors and passages of ornate styles stand under a cap, windows on a sill board.
+    """
+    ornament = interior.style.form.ornament
+    width = 0.10 + 0.04 * ornament
     distance = gap_distance(s, z, gap)
-    steps = F32(0.012) * edge(F32(width) - distance, 0.015) + F32(0.008) * edge(F32(0.6 * width) - distance, 0.015)
+    steps = F32(0.014) * edge(F32(width) - distance, 0.012)
+    steps += F32(0.012) * edge(distance - F32(0.76 * width), 0.010) + F32(0.007) * edge(F32(0.22 * width) - distance, 0.010)
     sheet = over(sheet, trim, edge(F32(width) - distance, chart.texel), lift=steps)
+    inside = (distance > 0) & (distance < width)
+    for quirk in (0.24 * width, 0.74 * width):  # the fine shadows that tell one moulding from the next
+        sheet = shaded(sheet, 1 - 0.30 * np.exp(-(((distance - F32(quirk)) / F32(0.009)) ** 2)) * inside)
     outside = np.maximum(distance - F32(width), 0)
-    sheet = shaded(sheet, 1 - 0.16 * np.exp(-outside / 0.03) * (outside > 0))
+    sheet = shaded(sheet, 1 - 0.30 * np.exp(-outside / 0.035) * (outside > 0))
+    half, middle = (gap.right - gap.left) / 2 + width, (gap.left + gap.right) / 2
     if gap.kind == "window":  # the sill board stands out below
-        board = np.minimum(
-            F32(0.05) - np.abs(z - F32(gap.sill - 0.05)),
-            F32((gap.right - gap.left) / 2 + width + 0.04) - np.abs(s - F32((gap.left + gap.right) / 2)),
-        )
-        sheet = _band(sheet, trim, board, depth=0.03, nosing=0.02, texel=chart.texel)
-    return sheet
+        board = np.minimum(F32(0.05) - np.abs(z - F32(gap.sill - 0.05)), F32(half + 0.04) - np.abs(s - F32(middle)))
+        return _band(sheet, trim, board, depth=0.03, nosing=0.02, texel=chart.texel)
+    tall = 0.05 + 0.05 * ornament
+    low = gap.head + width
+    if ornament < 0.1 or low + tall > interior.height - cornice_depth(ornament) - 0.02:
+        return sheet
+    cap = np.minimum(F32(tall / 2) - np.abs(z - F32(low + tall / 2)), F32(half + 0.035) - np.abs(s - F32(middle)))
+    sheet = shaded(sheet, 1 - 0.35 * np.exp(-np.maximum(F32(low) - z, 0) / 0.02) * (z < low) * (np.abs(s - F32(middle)) < half))
+    return _band(sheet, trim, cap, depth=0.035, nosing=0.03, texel=chart.texel)
 
 
 def _band(sheet: Sheet, trim: Sheet, inside: np.ndarray, *, depth: float, nosing: float, texel: float) -> Sheet:

@@ -18,6 +18,7 @@ BARS: dict[str, tuple[int, int, float]] = {
     "coastal": (1, 1, 0.045),
     "rustic": (2, 2, 0.045),
     "industrial": (3, 2, 0.03),
+    "clockwork": (2, 2, 0.035),
     "japanese": (4, 3, 0.025),
     "moroccan": (4, 4, 0.03),
 }
@@ -58,26 +59,30 @@ def _outdoors(chart: Chart, across: np.ndarray, z: np.ndarray, interior: Interio
     light = interior.style.light
     sky = to_linear(np.asarray(light.sky_color, F32))[:, None, None]
     sun = to_linear(np.asarray(light.sun_color, F32))[:, None, None]
-    brightness = F32(0.5 + 1.1 * light.sky_strength + 0.35 * light.sun_strength)
+    brightness = F32(0.55 + 0.55 * light.sky_strength + 0.2 * light.sun_strength)
     up = np.clip((z - F32(HORIZON)) / F32(1.6), -1, 1)
     glow = np.exp(-np.abs(up) * F32(2.2))
-    cloud = fbm((across, z * F32(2.2)), wavelength=1.1, octaves=3, footprint=chart.texel, seed=interior.seed + 80)
-    air = sky * (F32(0.75) + F32(0.25) * np.clip(up, 0, 1)) + (sun * F32(0.5) + F32(0.35)) * glow * F32(0.55)
-    air = air * (F32(1) + F32(0.18) * np.clip(cloud, -0.5, 1))
+    cloud = fbm((across, z * F32(2.2)), wavelength=1.1, octaves=4, footprint=chart.texel, seed=interior.seed + 80)
+    deep = sky ** F32(1.0 + 0.6 * light.sun_strength)  # the day's sky is bluer overhead than at the horizon
+    air = deep * F32(0.95) + (sky * F32(0.55) + sun * F32(0.35) - deep * F32(0.5)) * glow * F32(0.8)
+    air = air + (F32(0.95) * sky + F32(0.2) - air) * np.clip(F32(1.1) * cloud + F32(0.05), 0, 0.7)
     haze = sky * F32(0.5) + F32(0.12)
-    far = F32(HORIZON + 0.10) + F32(0.12) * fbm(
-        (across, across * 0), wavelength=2.4, octaves=3, footprint=chart.texel, seed=interior.seed + 81
-    )
-    near = F32(HORIZON - 0.12) + F32(0.20) * fbm(
-        (across, across * 0), wavelength=0.8, octaves=4, footprint=chart.texel, seed=interior.seed + 82
-    )
-    green = np.array([0.16, 0.24, 0.12], F32)[:, None, None] * (F32(0.5) + sun)
-    ground = np.array([0.30, 0.34, 0.20], F32)[:, None, None] * (F32(0.5) + sun)
-    leaves = F32(1) + F32(0.5) * fbm((across, z), wavelength=0.25, octaves=3, footprint=chart.texel, seed=interior.seed + 83)
-    soft = max(chart.texel, 0.03)
-    view = air + (F32(0.6) * haze + F32(0.3) * green - air) * edge(far - z, soft)
-    view = view + (green * leaves * F32(0.8) + F32(0.12) * haze - view) * edge(near - z, soft)
-    view = view + (ground * (F32(0.8) + F32(0.3) * leaves) + F32(0.15) * haze - view) * edge(F32(HORIZON - 0.45) - z, 0.12)
+    ridge = [
+        fbm((across, across * 0), wavelength=length, octaves=octaves, footprint=chart.texel, seed=interior.seed + seed)
+        for length, octaves, seed in ((2.4, 3, 81), (1.5, 4, 84), (0.55, 5, 82))
+    ]
+    green = np.array([0.13, 0.22, 0.09], F32)[:, None, None] * (F32(0.5) + sun)
+    ground = np.array([0.26, 0.33, 0.14], F32)[:, None, None] * (F32(0.5) + sun)
+    leaves = fbm((across, z), wavelength=0.16, octaves=4, footprint=chart.texel, seed=interior.seed + 83)
+    lit = F32(1) + F32(0.75) * leaves
+    soft = max(chart.texel, 0.015)
+    view = air + (F32(0.75) * haze + F32(0.15) * green - air) * edge(F32(HORIZON + 0.12) + F32(0.14) * ridge[0] - z, soft)
+    middle = F32(0.4) * haze + F32(0.65) * green * (F32(1) + F32(0.3) * leaves)
+    view = view + (middle - view) * edge(F32(HORIZON) + F32(0.12) * ridge[1] - z, soft)
+    crowns = F32(HORIZON - 0.16) + F32(0.22) * ridge[2] + F32(0.05) * leaves
+    view = view + (green * lit * F32(1.05) + F32(0.05) * haze - view) * edge(crowns - z, soft)
+    lawn = F32(HORIZON - 0.42) + F32(0.03) * leaves
+    view = view + (ground * (F32(0.95) + F32(0.25) * leaves) + F32(0.06) * haze - view) * edge(lawn - z, 0.04)
     return (view * brightness).astype(F32)
 
 
@@ -87,7 +92,7 @@ def _leaded(chart: Chart, glass: Sheet, s: np.ndarray, t: np.ndarray, width: flo
     b, db = cells(s * F32(1.35) - t * F32(0.78), 0.26)
     tint = F32(0.88) + F32(0.24) * ((a * 7 + b * 13) % 5).astype(F32) / F32(4)
     assert glass.emission is not None
-    emission = glass.emission * F32(0.9) * tint
+    emission = glass.emission * F32(1.05) * tint
     ruby, blue, amber = (np.array(c, F32)[:, None, None] for c in ((0.85, 0.16, 0.12), (0.14, 0.28, 0.75), (0.95, 0.66, 0.2)))
     sides = np.minimum(np.minimum(s, F32(width) - s), np.minimum(t, F32(height) - t))
     block = (np.floor(t / F32(0.18)) + np.floor(s / F32(0.18))) % 2
