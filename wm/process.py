@@ -40,10 +40,8 @@ class WorkerProcess:
         theirs = [pipe.fileno() for _, pipe in pairs]
         paths = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # this wm, wherever it was imported from
         command = [sys.executable, "-m", __name__, module, str(core), *map(str, theirs)]
-        environment = os.environ | paths | (environment or {})
-        self.popen = subprocess.Popen(
-            command, stdin=subprocess.PIPE, pass_fds=theirs, env=environment, start_new_session=True
-        )
+        variables = os.environ | paths | dict(environment or {})
+        self.popen = subprocess.Popen(command, stdin=subprocess.PIPE, pass_fds=theirs, env=variables, start_new_session=True)
         for _, pipe in pairs:
             pipe.close()
         self.pipes: list[Connection] = [pipe for pipe, _ in pairs]
@@ -65,10 +63,10 @@ def portable(error: BaseException) -> BaseException:
 
 
 def _end(popen: subprocess.Popen, pipes: list[Connection]) -> None:
-    for pipe in pipes:
-        pipe.close()
     popen.terminate()
     popen.communicate()
+    for pipe in pipes:  # now that whoever waits at one has been told that it ended
+        pipe.close()
 
 
 def _end_with_the_caller() -> None:

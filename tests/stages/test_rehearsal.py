@@ -10,6 +10,7 @@ from wm.meter import StageMeter
 from wm.run import load_config
 from wm.splat.padding import Capacity
 from wm.splat.step import view_gradient
+from wm.stages.fitters import Fitters
 from wm.stages.job import Job
 from wm.stages.rehearsal import contenders, rehearse
 from wm.stages.scene import build_scene
@@ -27,7 +28,7 @@ def test_it_takes_one_step_and_one_render_and_sets_the_capacity(made):
     job, scene = made
     capacity = Capacity()
     jax.clear_caches()
-    rehearse(job, scene, capacity)
+    rehearse(job, scene, Fitters(capacity=capacity, workers=[]))
     assert view_gradient._cache_size() == 1
     assert capacity.entries is not None and capacity.entries > 0
 

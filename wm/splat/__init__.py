@@ -16,6 +16,7 @@
     watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
     exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
     fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
+    room_task.py  what the fit of one of them reads; room_worker.py: room_workers, which do it in processes of their own
     metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
     ply.py        load_ply, save_ply
 """
@@ -30,6 +31,7 @@ from wm.splat.ply import PlyError, load_ply, save_ply
 from wm.splat.project import Projected, project
 from wm.splat.render import render
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
+from wm.splat.room_worker import RoomWorker, room_workers
 from wm.splat.scene_fit import SceneFit, fit_scene
 from wm.splat.ssim import ssim, ssim_map
 from wm.splat.tiles import TilePlan, plan_tiles, plan_views
@@ -46,6 +48,7 @@ __all__ = [
     "PlyError",
     "Projected",
     "ReprojectionError",
+    "RoomWorker",
     "SceneFit",
     "TilePlan",
     "TracedPlan",
@@ -68,6 +71,7 @@ __all__ = [
     "rasterize",
     "render",
     "reprojection_error",
+    "room_workers",
     "save_ply",
     "shared_pixels",
     "ssim",
