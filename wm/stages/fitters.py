@@ -25,19 +25,19 @@ class Fitters:
 @contextmanager
 def fitters(config: RunConfig, scene: Scene) -> Iterator[Fitters]:
     """Fitters for the block. Their processes start when they are first given a room, and end with the block."""
-    with room_workers(worker_count(config, scene)) as workers:
+    painted = {view.room for view in scene.views}
+    with room_workers(worker_count(config.workers, len(painted))) as workers:
         yield Fitters(capacity=Capacity(), workers=workers)
 
 
-def worker_count(config: RunConfig, scene: Scene) -> int:
-    """As many as asked for, but no more than rooms that are painted; none on an accelerator, which all rooms share.
+def worker_count(asked: int | None, rooms: int) -> int:
+    """As many as asked for, but no more than there are rooms; none on an accelerator, which all rooms share.
 
     Not asked for a number, one a core; but a single one would have nothing for it.
     """
     if os.name != "posix" or jax.default_backend() != "cpu":
         return 0
-    rooms = len({view.room for view in scene.views})
-    if config.workers is not None:
-        return min(config.workers, rooms)
+    if asked is not None:
+        return min(asked, rooms)
     count = min(cores(), rooms)
     return count if count > 1 else 0

@@ -85,8 +85,7 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, fitters: Fit
 
     def views(room: int) -> Iterator[TrainingView]:
         for view in (view for view in scene.views if view.room == room):
-            stored = painted.view(view)
-            yield training_view(scene, view, stored.rgb, stored.mask, cast(scene.rays, view.camera))
+            yield training_view(scene, view, *painted.picture(view), cast(scene.rays, view.camera))
 
     def heldout(room: int) -> list[TrainingView]:
         if not truths.known or config.fit.curve_points == 0:
@@ -112,13 +111,9 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, fitters: Fit
     folder.drop_others("fit/", {name(r, room) for r in range(config.fit.rounds) for room in rooms})
     seeds = np.random.SeedSequence([config.seed, 1])
 
-    def picture(view: View) -> tuple[np.ndarray, np.ndarray]:
-        stored = painted.view(view)
-        return stored.rgb, stored.mask
-
     def initial(room: int) -> Gaussians:
         rng = np.random.default_rng(children[room])
-        return starting_gaussians(scene, room, views(room), picture, cameras=config.cameras, settings=config.fit, rng=rng)
+        return starting_gaussians(scene, room, views(room), painted.picture, cameras=config.cameras, settings=config.fit, rng=rng)
 
     children = seeds.spawn(len(rooms))
     start = list(in_order(initial, rooms))
