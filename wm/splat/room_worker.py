@@ -65,7 +65,7 @@ class RoomWorker:
             core: that it is held to; None: any.
             compiled: a folder in which workers find what others have compiled; None: each compiles for itself.
         """
-        # One device of the CPU, whatever the caller has: a fit in its process would not give the bytes of another kind of device.
+        # However many devices the caller has asked JAX for: a worker has one core, and one room at a time.
         self._environment = {"JAX_PLATFORMS": "cpu", "JAX_NUM_CPU_DEVICES": "1"}
         if compiled is not None:
             self._environment |= {"JAX_COMPILATION_CACHE_DIR": compiled, "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.2"}

@@ -101,9 +101,7 @@ def contenders(scene: Scene, settings: FitSettings) -> list[int]:
 
 def _cloud(scene: Scene, room: int, config: RunConfig) -> Gaussians:
     rng = np.random.default_rng(0)
-    return starting_gaussians(
-        scene, room, _blank_views(scene, room), None, cameras=config.cameras, settings=config.fit, rng=rng
-    )
+    return starting_gaussians(scene, room, _blank_views(scene, room), None, cameras=config.cameras, settings=config.fit, rng=rng)
 
 
 def _blank_views(scene: Scene, room: int) -> Iterator[TrainingView]:
