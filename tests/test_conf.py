@@ -120,6 +120,7 @@ def test_a_scene_of_ones_own():
         (["seed=-1", "cameras.fov=400"], "cameras.fov=400.0: must be a number from 5 to 150; seed=-1: must be a number from 0"),
         (["fit.spacing=nan"], "fit.spacing=nan: must be a number from 0.001 to 1"),
         (["fit.lr_sh=inf"], "fit.lr_sh=inf: must be a number from 0 to 10"),
+        (["workers=-1"], "workers=-1: must be a number from 0 to 1000, or null for one a core"),
         (["verify.low=0.5"], "verify.low=0.5: must not exceed verify.high=0.3"),
         (["scene.name=../../up"], "scene.name='../../up': names a folder"),
         (["scene.rooms=[]"], "scene.rooms=.*name at least one room"),

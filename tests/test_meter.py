@@ -3,6 +3,7 @@
 import pathlib
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -44,10 +45,14 @@ def test_a_failing_stage_is_still_measured():
 
 
 @pytest.mark.skipif(not pathlib.Path("/proc/self/task").exists(), reason="counts workers on Linux only")
-def test_the_memory_of_workers_counts():
+def test_the_memory_of_workers_counts_whichever_thread_started_them():
     before = resident_gib()
     code = "block = b'x' * 300_000_000; print('ready', flush=True); input()"
-    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as worker:
+
+    def start():
+        return subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+    with ThreadPoolExecutor(1) as thread, thread.submit(start).result() as worker:
         assert worker.stdout is not None and worker.stdout.readline() == b"ready\n"
         assert resident_gib() > before + 0.25
         worker.communicate(b"\n")

@@ -84,6 +84,14 @@ def test_an_interrupted_run_resumes_to_the_same_bytes(whole, tmp_path, monkeypat
     assert _bytes(tmp_path) == _bytes(whole)
 
 
+@pytest.mark.slow
+def test_rooms_fitted_in_processes_of_their_own_leave_the_same_bytes(tmp_path):
+    for workers in (0, 2):
+        config = load_config([*SMALL[:2], "scene.rooms=[bedroom,hall]", *SMALL[3:], f"workers={workers}"])
+        run(config, tmp_path / str(workers))
+    assert _bytes(tmp_path / "0") == _bytes(tmp_path / "2")
+
+
 def test_damage_is_said_and_mended(whole, tmp_path, capsys):
     config = load_config(SMALL)
     for name, data in _bytes(whole).items():

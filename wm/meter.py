@@ -66,12 +66,18 @@ def resident_gib() -> float:
 
 
 def _children(process: pathlib.Path) -> list[pathlib.Path]:
-    listed = process / "task" / str(os.getpid()) / "children"
-    return [pathlib.Path("/proc") / pid for pid in listed.read_text().split()] if listed.exists() else []
+    """Children of a process: each is listed with the thread that started it."""
+    pids = [pid for listed in process.glob("task/*/children") for pid in _read(listed).split()]
+    return [pathlib.Path("/proc") / pid for pid in pids]
+
+
+def _read(file: pathlib.Path) -> str:
+    try:
+        return file.read_text()
+    except OSError:  # its thread or process has ended meanwhile
+        return ""
 
 
 def _resident_pages(process: pathlib.Path) -> int:
-    try:
-        return int((process / "statm").read_text().split()[1])
-    except (OSError, IndexError):  # it has ended meanwhile
-        return 0
+    pages = _read(process / "statm").split()
+    return int(pages[1]) if pages else 0

@@ -19,6 +19,7 @@ from wm.meter import StageMeter
 from wm.neighbours import Neighbours
 from wm.schema import RunConfig
 from wm.stages.evaluation import METRICS, evaluate
+from wm.stages.fitters import fitters
 from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.job import TIMINGS, Job
 from wm.stages.painting import Painted, is_painted, paint
@@ -29,7 +30,7 @@ from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.synth.backends import make_backend
 
 _RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
-_NOT_IDENTITY = ("output", "overwrite", "debug", "report", "reuse")
+_NOT_IDENTITY = ("output", "overwrite", "debug", "report", "reuse", "workers")
 """Parts of the configuration that change no stage's result."""
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
 """Files that a stage leaves and that depend on the clock."""
@@ -61,9 +62,10 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     with open_run_folder(folder, header, overwrite=config.overwrite, lend=lend) as store:
         job = Job(config=config, folder=store, meter=meter)
         scene = build_scene(job)
-        with rehearsed(job, scene, needed=not is_painted(job, scene)) as capacity:
-            painted, heldout = _painted(job, scene)
-        result = reconstruct(job, scene, painted, heldout, capacity)
+        with fitters(config, scene) as fitting:
+            with rehearsed(job, scene, fitting, needed=not is_painted(job, scene)):
+                painted, heldout = _painted(job, scene)
+            result = reconstruct(job, scene, painted, heldout, fitting)
         metrics = evaluate(job, scene, painted, result, heldout)
         metrics = report(job, scene, painted, result, metrics)
         print(_summary(folder, job, metrics))

@@ -6,7 +6,6 @@ what counts is the whole second call, with all that it does before and after its
 
 import dataclasses
 import functools
-import importlib.util
 import sys
 from collections.abc import Iterator, Sequence
 
@@ -18,7 +17,7 @@ from records import Record, write
 from tests.splat.rooms import views_of
 from wm.host import cores, prepare_process
 from wm.schema import FitSettings, RasterSettings
-from wm.splat import TrainingView, fit_scene, initial_gaussians, plan_tiles
+from wm.splat import TrainingView, fit_scene, initial_gaussians, plan_tiles, room_workers
 from wm.splat.padding import Capacity
 from wm.splat.step import project_view
 from wm.types import Gaussians
@@ -50,13 +49,10 @@ def records(tiny: bool) -> Iterator[Record]:
 
 
 def ways() -> Iterator[tuple[str, dict]]:
-    """How rooms may be side by side, as arguments of `fit_scene`: in threads, and in processes where it has them."""
+    """How rooms may be side by side, as arguments of `fit_scene`: in threads, and in processes."""
     yield "threads", {"devices": jax.devices()[:1] * cores()}
-    if importlib.util.find_spec("wm.splat.room_worker") is not None:
-        from wm.splat.room_worker import room_workers
-
-        with room_workers(cores()) as workers:
-            yield "processes", {"workers": workers}
+    with room_workers(cores()) as workers:
+        yield "processes", {"workers": workers}
 
 
 def views_in(width: int, height: int, room: int) -> list[TrainingView]:

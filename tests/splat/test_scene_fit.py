@@ -189,3 +189,24 @@ def test_two_devices_give_the_bytes_of_one():
         outputs[devices] = run_.stdout.split()
     assert outputs["1"][0] == "1" and outputs["2"][0] == "2"
     assert outputs["1"][1] == outputs["2"][1]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "sched_getaffinity") or len(os.sched_getaffinity(0)) < 2, reason="needs several cores")
+def test_one_core_gives_the_bytes_of_all():
+    """Large enough that XLA would cut loops into a part a core, whose roundings differ (`WHOLE`)."""
+    code = (
+        "import os, sys; os.sched_setaffinity(0, set(map(int, sys.argv[1:])));"
+        "import dataclasses, hashlib, numpy as np; from tests.splat import test_scene_fit as t;"
+        "settings = dataclasses.replace(t.SETTINGS, spacing=0.1, steps=2, rounds=1);"
+        "views = [t.views_of(count=2, width=160, height=96)];"
+        "start = [t.initial_gaussians(views[0], settings=settings, rng=np.random.default_rng(0))];"
+        "fit = t.run(start, views, settings=settings);"
+        "print(hashlib.sha256(b''.join(b for g in fit.gaussians for b in t.raw(g))).hexdigest())"
+    )
+    cores, printed = [str(core) for core in os.sched_getaffinity(0)], []
+    for some in (cores[:1], cores):
+        command = [sys.executable, "-c", code, *some]
+        env = os.environ | {"JAX_PLATFORMS": "cpu"}
+        printed.append(subprocess.run(command, capture_output=True, text=True, env=env, check=True).stdout)
+    assert printed[0] == printed[1] != ""

@@ -1,25 +1,26 @@
 """Gaussian splatting in JAX: from gaussians and a camera to an image, and back to better gaussians.
 
-render.py     render: one call from gaussians to an image, in and out of jit
-project.py    project -> Projected: ellipses on the image plane
-tiles.py      plan_tiles -> TilePlan: which gaussians touch which tiles, front to back (host); tiles_traced.py: in the graph;
-              planner.py: which of the two
-composite.py  rasterize: alpha compositing over a plan, with its own derivative; _loops.py, _kernels.py: the walk, for XLA
-              anywhere and for NVIDIA GPUs; _pairs.py: one gaussian at one pixel
-checks.py     what is wrong with the arguments
-harmonics.py  the colour's dependence on direction
-_reference.py render_reference: the slow float64 twin of render
+    render.py     render: one call from gaussians to an image, in and out of jit
+    project.py    project -> Projected: ellipses on the image plane
+    tiles.py      plan_tiles -> TilePlan: which gaussians touch which tiles, front to back (host); tiles_traced.py: in the graph;
+                  planner.py: which of the two
+    composite.py  rasterize: alpha compositing over a plan, with its own derivative; _loops.py, _kernels.py: the walk, for XLA
+                  anywhere and for NVIDIA GPUs; _pairs.py: one gaussian at one pixel
+    checks.py     what is wrong with the arguments
+    harmonics.py  the colour's dependence on direction
+    _reference.py render_reference: the slow float64 twin of render
 
-training.py   TrainingView: what a fit is shown
-cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
-ssim.py       ssim, with its own derivative; losses.py: what a fit minimises
-step.py       one step; batch.py: the views of a step, over devices; frozen.py: what a fit renders and does not move
-room_fit.py   the loop of steps; room_state.py, checkpoint.py: where it stands; padding.py: the shapes that steps share
-watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
-exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
-fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
-metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
-ply.py        load_ply, save_ply
+    training.py   TrainingView: what a fit is shown
+    cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
+    ssim.py       ssim, with its own derivative; losses.py: what a fit minimises
+    step.py       one step; batch.py: the views of a step, over devices; frozen.py: what a fit renders and does not move
+    room_fit.py   the loop of steps; room_state.py, checkpoint.py: where it stands; padding.py: the shapes that steps share
+    watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
+    exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
+    fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
+    room_task.py  what the fit of one of them reads; room_worker.py: room_workers, which do it in processes of their own
+    metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
+    ply.py        load_ply, save_ply
 """
 
 from wm.splat._wide import WIDE
@@ -32,6 +33,7 @@ from wm.splat.ply import PlyError, load_ply, save_ply
 from wm.splat.project import Projected, project
 from wm.splat.render import render
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
+from wm.splat.room_worker import RoomWorker, room_workers
 from wm.splat.scene_fit import SceneFit, fit_scene
 from wm.splat.ssim import ssim, ssim_map
 from wm.splat.tiles import TilePlan, plan_tiles, plan_views
@@ -48,6 +50,7 @@ __all__ = [
     "PlyError",
     "Projected",
     "ReprojectionError",
+    "RoomWorker",
     "SceneFit",
     "TilePlan",
     "TracedPlan",
@@ -71,6 +74,7 @@ __all__ = [
     "rasterize",
     "render",
     "reprojection_error",
+    "room_workers",
     "save_ply",
     "shared_pixels",
     "ssim",

@@ -20,12 +20,12 @@ from wm.splat.metrics import depth_error, normal_error, normals_from_depth, psnr
 from wm.splat.padding import host, pad_gaussians, pad_rows, unpad_rows
 from wm.splat.refine import is_due, no_residual, observe, refine
 from wm.splat.room_state import NOTHING_SINCE, RoomState
-from wm.splat.step import Moving, Rates, TrainState, move, rates_at, start_state
+from wm.splat.step import WHOLE, Moving, Rates, TrainState, move, rates_at, start_state
 from wm.splat.trouble import TERMS, divergence, not_finite, weighted
 from wm.splat.watch import Watch, diverges, start_watch, watch_step, watch_visit
 from wm.types import Gaussians
 
-_smooth_pixels = jax.jit(smooth_pixels)
+_smooth_pixels = jax.jit(smooth_pixels, compiler_options=WHOLE)
 
 
 class Interrupted(Exception):

@@ -2,11 +2,13 @@
 
 Block Jacobi: in every round each room moves its own gaussians toward its own views, and what those views see of other rooms,
 through doors, is frozen as it stood when the round began. So rooms are independent within a round: they run side by side, one to
-a device and a Python thread, and the result does not depend on which ran where or when. Cost is linear in rooms; the images of a
-room are in memory only while it is fitted. Rooms share compiled steps: their gaussians are padded to a few common sizes.
+a device and a Python thread, or to a process of its own (room_worker.py), and the result does not depend on which ran where or
+when. Cost is linear in rooms; the images of a room are in memory only while it is fitted. Rooms share compiled steps: their
+gaussians are padded to a few common sizes.
 """
 
 import dataclasses
+import functools
 import queue
 import time
 from collections.abc import Callable, Sequence
@@ -15,13 +17,15 @@ from concurrent.futures import ThreadPoolExecutor
 import jax
 
 from wm.schema import FitSettings, RasterSettings
-from wm.splat.batch import Compiled, Device
+from wm.splat.batch import Device
 from wm.splat.checkpoint import from_arrays, to_arrays
 from wm.splat.curve import FitPoint
-from wm.splat.fit import DEFAULT_RASTER, Progress, see_views, seed_of
+from wm.splat.fit import DEFAULT_RASTER, Progress, seed_of
 from wm.splat.padding import Capacity, pad_gaussians
-from wm.splat.room_fit import Interrupted, RoomFit
+from wm.splat.room_fit import Interrupted
 from wm.splat.room_state import RoomState, initial_state
+from wm.splat.room_task import Here, Place, RoomTask
+from wm.splat.room_worker import RoomWorker
 from wm.splat.scene_progress import Checkpoints, Load, SceneProgress, Store
 from wm.splat.step import raster_for
 from wm.splat.training import TrainingView
@@ -57,6 +61,7 @@ def fit_scene(
     progress: Progress | None = None,
     capacity: Capacity | None = None,
     devices: Sequence[Device] | None = None,
+    workers: Sequence[RoomWorker] = (),
 ) -> SceneFit:
     """The gaussians of every room, fitted to its views.
 
@@ -69,12 +74,14 @@ def fit_scene(
         key: a JAX key. Same arguments and key, same bytes, on any number of devices.
         heldout: a few views of a room to measure its curve on; never trained on.
         load, store: checkpoints by (round, room), the last of each counts: what was stored is not computed again, and ends in the
-            same bytes. `store` is called from the threads of the devices, for one room at a time each.
+            same bytes. `store` is called from threads, one for each room under way.
         checkpoint_seconds: a room is stored when this long has passed since it began or was stored, and when its round ends.
         progress: called after every step of any room, one call at a time.
         capacity: of an earlier fit of the same shapes, to share what was compiled for it; None: a new one.
         devices: one room at a time each, or several for a room and its batches where there are fewer rooms; all CPU devices if
             None (`jax_num_cpu_devices` says how many), or all accelerators.
+        workers: processes (`room_workers`) that fit one room at a time each, instead of devices of this one. Same bytes as on
+            the CPU here.
 
     Returns: the gaussians, the curves and what stopped early.
     Raises: the error of a room (of `views`, say) once all rooms ended their round. A KeyboardInterrupt as soon as every room
@@ -91,11 +98,10 @@ def fit_scene(
         checkpoints=Checkpoints(load, store, checkpoint_seconds),
         capacity=capacity or Capacity(),
     )
-    devices = list(devices or jax.devices())
-    side_by_side = max(min(len(devices), len(gaussians)), 1)
-    free = queue.SimpleQueue()
-    for first in range(side_by_side):
-        free.put(devices[first::side_by_side])
+    places: Sequence[Place] = workers or _places(list(devices or jax.devices()), len(gaussians))
+    free: queue.SimpleQueue[Place] = queue.SimpleQueue()
+    for place in places:
+        free.put(place)
 
     def one_room(round_: int, room: int) -> RoomState:
         state = scene.stored(round_, room)
@@ -108,7 +114,7 @@ def fit_scene(
             free.put(mine)
 
     largest_first = sorted(range(len(gaussians)), key=lambda room: -len(gaussians[room].opacity_logits))
-    with ThreadPoolExecutor(max_workers=side_by_side, thread_name_prefix="wm-fit") as pool:
+    with ThreadPoolExecutor(max_workers=min(len(places), max(len(gaussians), 1)), thread_name_prefix="wm-fit") as pool:
         for round_ in range(settings.rounds):
             running = {room: pool.submit(one_room, round_, room) for room in largest_first}
             try:
@@ -124,6 +130,11 @@ def fit_scene(
     )
 
 
+def _places(devices: list[Device], rooms: int) -> list[Here]:
+    side_by_side = max(min(len(devices), rooms), 1)
+    return [Here(devices[first::side_by_side]) for first in range(side_by_side)]
+
+
 class _Scene:
     """The states of all rooms as they stood when the round began, and all that the fit of one of them reads."""
 
@@ -135,7 +146,8 @@ class _Scene:
         self.seed: tuple[int, ...] = seed
         self.report: SceneProgress = report
         self.checkpoints: Checkpoints = checkpoints
-        self.compiled = Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=capacity)
+        self.raster: RasterSettings = raster
+        self.capacity: Capacity = capacity
         self.started = time.perf_counter()
         self.largest = max((self._count(room) for room in range(len(states))), default=0)
 
@@ -157,11 +169,17 @@ class _Scene:
         """Whether a checkpoint is that of the end of a round, and not of its last step: then the round is still to be judged."""
         return state.stopped is not None or (state.watch is None and state.step >= self.stretch(round_)[1])
 
-    def fit_room(self, round_: int, room: int, state: RoomState, devices: Sequence[Device]) -> RoomState:
+    def fit_room(self, round_: int, room: int, state: RoomState, place: Place) -> RoomState:
         """The state of a room after a round, which is stored, as is what an exception leaves."""
-        checkpoints = self.checkpoints
+        checkpoints, (first, last) = self.checkpoints, self.stretch(round_)
+        task = self._task(room, state, last)
         try:
-            state = self._fitted(room, state, self.stretch(round_), devices, checkpoints.keeper(round_, room))
+            if state.stopped or not task.views or self._count(room) == 0:
+                self.report.skip(last - first)
+                state = dataclasses.replace(state, step=last)
+            else:
+                report = functools.partial(self._report, room)
+                state = place.fit(task, self.capacity, report, checkpoints.keeper(round_, room))
         except Interrupted as interrupted:
             if interrupted.resumable:
                 checkpoints.store(round_, room, to_arrays(interrupted.state))
@@ -169,44 +187,29 @@ class _Scene:
         checkpoints.store(round_, room, to_arrays(state))
         return state
 
-    def _fitted(self, room: int, state: RoomState, stretch: tuple[int, int], devices: Sequence[Device], keep) -> RoomState:
-        (first, last), views = stretch, list(self.views(room))
-        if state.stopped or not views or self._count(room) == 0:
-            self.report.skip(last - first)
-            return dataclasses.replace(state, step=last)
-        heldout = list(self.heldout(room))
-        all_views = [*views, *heldout]
-        neighbours = self._neighbours(all_views, room, devices[0])
-        seen = see_views(all_views, neighbours, self.compiled.raster, devices[0], self._columns)
-        room_fit = RoomFit(
-            views=seen[: len(views)],
-            heldout=seen[len(views) :],
-            settings=self.settings,
-            compiled=self.compiled,
-            seed=(*self.seed, room),
+    def _report(self, room: int, done: int, info: dict) -> None:
+        self.report.step(info | {"room": room})
+
+    def _task(self, room: int, state: RoomState, last: int) -> RoomTask:
+        views, heldout = map(_read, (self.views(room), self.heldout(room)))
+        return RoomTask(
             room=room,
-            count=self._count(room),
+            state=state,
+            last=last,
+            views=views,
+            heldout=heldout,
+            neighbours=self._neighbours([*views, *heldout], room),
+            settings=self.settings,
+            raster=self.raster,
+            seed=self.seed,
             rows=self._rung(room),
-            devices=devices,
-            clock=lambda: time.perf_counter() - self.started,
+            columns=0 if len(self.states) == 1 else max(self.largest, 1),
+            seconds=time.perf_counter() - self.started,
         )
-        return room_fit.run(state, last, lambda done, info: self.report.step(info | {"room": room}), keep)
 
-    def _neighbours(self, views: Sequence[TrainingView], room: int, device: Device) -> list[list[Gaussians]]:
-        """What each view may see of other rooms, on the device, each room once."""
+    def _neighbours(self, views: Sequence[TrainingView], room: int) -> dict[int, Gaussians]:
         others = sorted({other for view in views for other in view.sees if other != room and self._count(other) > 0})
-        padded = {other: pad_gaussians(self.states[other].train.gaussians, self._rung(other)) for other in others}
-        on_device = jax.device_put(padded, device)
-        return [[on_device[other] for other in sorted(set(view.sees)) if other in on_device] for view in views]
-
-    def _columns(self, most: int) -> int:
-        """Columns for neighbours, the same for all rooms if they suffice: none in a scene of one room."""
-        if len(self.states) == 1:
-            return 0
-        columns = max(self.largest, 1)
-        while columns < most:
-            columns *= 2
-        return columns
+        return {other: pad_gaussians(self.states[other].train.gaussians, self._rung(other)) for other in others}
 
     def _count(self, room: int) -> int:
         return len(self.states[room].train.gaussians.opacity_logits)
@@ -217,3 +220,8 @@ class _Scene:
         while -(-size // RUNG) >= self._count(room) and size > 1:
             size = -(-size // RUNG)
         return size
+
+
+def _read(views: Sequence[TrainingView]) -> list[TrainingView]:
+    """Views without what only the initial cloud reads."""
+    return [dataclasses.replace(view, own=None, normal=None, detailed=None) for view in views]

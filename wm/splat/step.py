@@ -24,6 +24,11 @@ from wm.splat.project import Projected, project
 from wm.splat.tiles import TilePlan
 from wm.types import Camera, Gaussians, Render
 
+WHOLE = WIDE | {"xla_disable_hlo_passes": "cpu-parallel-task-assigner"}
+"""Compiler options for all that decides a byte of a fit. On a CPU XLA cuts large loops into as many parts as the process has
+cores, and a part is compiled to other roundings than the whole. Left whole, a fit has the same bytes on any number of cores, and
+takes no longer: rooms side by side keep the cores busy."""
+
 _adam = optax.scale_by_adam(eps=1e-15)
 
 
@@ -117,19 +122,19 @@ def rates_at(settings: FitSettings, step: int, steps: int) -> Rates:
     )
 
 
-@functools.partial(jax.jit, static_argnames="raster", compiler_options=WIDE)
+@functools.partial(jax.jit, static_argnames="raster", compiler_options=WHOLE)
 def project_view(gaussians: Gaussians, camera: Camera, *, raster: RasterSettings) -> Projected:
     """`project`, compiled."""
     return project(gaussians, camera, raster)
 
 
-@functools.partial(jax.jit, static_argnames=("width", "height", "raster"), compiler_options=WIDE)
+@functools.partial(jax.jit, static_argnames=("width", "height", "raster"), compiler_options=WHOLE)
 def rasterize_view(projected: Projected, plan: TilePlan, *, width: int, height: int, raster: RasterSettings) -> Render:
     """`rasterize`, compiled."""
     return rasterize(projected, plan, width, height, raster)
 
 
-@functools.partial(jax.jit, static_argnames=("raster", "normals"), compiler_options=WIDE)
+@functools.partial(jax.jit, static_argnames=("raster", "normals"), compiler_options=WHOLE)
 def view_gradient(
     moving: Moving,
     target: Target,
@@ -173,7 +178,7 @@ def view_gradient(
     return terms, gradient
 
 
-@functools.partial(jax.jit, donate_argnums=0)
+@functools.partial(jax.jit, donate_argnums=0, compiler_options=WHOLE)
 def move(state: TrainState, gradients: Sequence[Gaussians], learning: Gaussians) -> TrainState:
     """The state after one step along the mean of finite gradients; the state's buffers are used up.
 

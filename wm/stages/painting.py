@@ -33,6 +33,10 @@ class Painted:
         """A finished view from the run folder."""
         return read_view(self.job, view)
 
+    def picture(self, view: View) -> tuple[np.ndarray, np.ndarray]:
+        """Of a finished view only the image [h, w, 3] uint8 and its usable pixels [h, w] bool."""
+        return _read_picture(self.job, view)
+
 
 def paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
     """All views painted and stored, and the textured scaffold exported."""
@@ -98,11 +102,15 @@ def read_view(job: Job, view: View) -> PaintedView:
     """A stored view."""
     base = job.folder.path / "views"
     record = json.loads((base / f"{view.name}.json").read_text())["painted"]
+    rgb, mask = _read_picture(job, view)
+    condition = codecs.decode_png((base / f"{view.name}.condition.png").read_bytes())
+    return PaintedView(rgb=rgb, mask=mask, condition=condition, **record)
+
+
+def _read_picture(job: Job, view: View) -> tuple[np.ndarray, np.ndarray]:
+    base = job.folder.path / "views"
     rgb = codecs.decode_png((base / f"{view.name}.png").read_bytes())
-    mask = codecs.decode_mask((base / f"{view.name}.mask.png").read_bytes())
-    return PaintedView(
-        rgb=rgb, mask=mask, condition=codecs.decode_png((base / f"{view.name}.condition.png").read_bytes()), **record
-    )
+    return rgb, codecs.decode_mask((base / f"{view.name}.mask.png").read_bytes())
 
 
 def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView, depth: np.ndarray) -> None:

@@ -11,11 +11,11 @@ from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, visible_rooms
 from wm.host import cores
-from wm.splat.padding import Capacity
 from wm.splat.ply import save_ply
 from wm.splat.scene_fit import fit_scene
 from wm.splat.scene_render import SceneRenderer
 from wm.splat.training import TrainingView
+from wm.stages.fitters import Fitters
 from wm.stages.heldout import HeldOut
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
@@ -41,18 +41,18 @@ class Reconstruction:
     renderer: SceneRenderer  # of the rooms
 
 
-def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, capacity: Capacity) -> Reconstruction:
-    """The gaussians of the scene, in `splats.ply`; `capacity` is what its steps are compiled for."""
+def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, fitters: Fitters) -> Reconstruction:
+    """The gaussians of the scene, in `splats.ply`."""
     with job.stage("reconstruct"):
         config = job.config
         key = job.key("reconstruct", painted.key, config.fit, config.raster)
         if not job.folder.has("reconstruct", key):
-            _fit(job, scene, painted, heldout, capacity, key)
+            _fit(job, scene, painted, heldout, fitters, key)
         history = job.folder.path / HISTORY
         rooms = _split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes()))
         return Reconstruction(
             rooms=rooms,
-            renderer=SceneRenderer(rooms, config.raster, capacity=capacity),
+            renderer=SceneRenderer(rooms, config.raster, capacity=fitters.capacity),
             history=tuple(json.loads(history.read_text())) if history.is_file() else (),
             key=key,
         )
@@ -79,14 +79,13 @@ def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, g
     )
 
 
-def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Capacity, key: str) -> None:
+def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, fitters: Fitters, key: str) -> None:
     config, folder = job.config, job.folder
     rooms = range(len(scene.plan.rooms))
 
     def views(room: int) -> Iterator[TrainingView]:
         for view in (view for view in scene.views if view.room == room):
-            stored = painted.view(view)
-            yield training_view(scene, view, stored.rgb, stored.mask, cast(scene.rays, view.camera))
+            yield training_view(scene, view, *painted.picture(view), cast(scene.rays, view.camera))
 
     def heldout(room: int) -> list[TrainingView]:
         if not truths.known or config.fit.curve_points == 0:
@@ -112,13 +111,9 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Ca
     folder.drop_others("fit/", {name(r, room) for r in range(config.fit.rounds) for room in rooms})
     seeds = np.random.SeedSequence([config.seed, 1])
 
-    def picture(view: View) -> tuple[np.ndarray, np.ndarray]:
-        stored = painted.view(view)
-        return stored.rgb, stored.mask
-
     def initial(room: int) -> Gaussians:
         rng = np.random.default_rng(children[room])
-        return starting_gaussians(scene, room, views(room), picture, cameras=config.cameras, settings=config.fit, rng=rng)
+        return starting_gaussians(scene, room, views(room), painted.picture, cameras=config.cameras, settings=config.fit, rng=rng)
 
     children = seeds.spawn(len(rooms))
     start = list(in_order(initial, rooms))
@@ -139,9 +134,10 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Ca
             load=load,
             store=store,
             progress=progress,
-            capacity=capacity,
-            # One room a core on one device: a step is compiled once, and XLA runs the calls of different threads side by side.
+            capacity=fitters.capacity,
+            # Without workers: one room a core on one device; a step is compiled once, and XLA runs calls of threads side by side.
             devices=jax.devices()[:1] * cores(),
+            workers=fitters.workers,
         )
     for line in result.stopped:
         print(f"reconstruct: {line}")

@@ -3,12 +3,13 @@
 Compiling a step of the fit takes as long as fifty of them, and painting, which is NumPy for the most part, leaves half a core
 idle. So one step is taken ahead, in a thread: that of the room with the most gaussians, since all rooms are padded to it,
 from its true initial cloud (which the scaffold alone decides, but for the colours) toward a black image. Nothing of it is kept
-but the compiled functions and the capacity of plans they are compiled for, so a wrong guess of the room costs time only.
+but the compiled functions and the capacity of plans they are compiled for, so a wrong guess of the room costs time only. Where
+rooms are fitted by processes of their own, it is they who compile.
 """
 
 import dataclasses
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 
@@ -19,9 +20,10 @@ from wm.geometry import cast
 from wm.geometry.mesh import face_crosses
 from wm.host import cores
 from wm.schema import FitSettings, RunConfig
-from wm.splat.padding import Capacity
+from wm.splat.room_worker import RoomWorker, WorkerClosed
 from wm.splat.scene_fit import fit_scene
 from wm.splat.training import TrainingView
+from wm.stages.fitters import Fitters
 from wm.stages.job import Job
 from wm.stages.reconstruction import training_view
 from wm.stages.scene import Scene
@@ -33,41 +35,52 @@ CONTENDERS = 0.8
 
 
 @contextmanager
-def rehearsed(job: Job, scene: Scene, *, needed: bool) -> Iterator[Capacity]:
-    """The capacity to fit the scene with; the rehearsal goes on beside the block if it is needed and there is a core for it."""
-    capacity = Capacity()
+def rehearsed(job: Job, scene: Scene, fitters: Fitters, *, needed: bool) -> Iterator[None]:
+    """The rehearsal goes on beside the block if it is needed and there is a core for it."""
     if not needed or cores() == 1 or not scene.views:
-        yield capacity
+        yield
         return
     pool = ThreadPoolExecutor(1, thread_name_prefix="wm-rehearsal")
     try:
-        pool.submit(rehearse, job, scene, capacity).add_done_callback(_tell)
-        yield capacity
+        pool.submit(rehearse, job, scene, fitters).add_done_callback(_tell)
+        yield
     finally:
         pool.shutdown(wait=False)  # a fit of the same shapes waits for the compilation, nobody else needs to
 
 
-def rehearse(job: Job, scene: Scene, capacity: Capacity) -> None:
-    """One step of the room with the most gaussians, and one held-out render; raises the capacity to what they need."""
+def rehearse(job: Job, scene: Scene, fitters: Fitters) -> None:
+    """One step of the room with the most gaussians, and one held-out render; raises the capacity to what they need.
+
+    With workers only the render is made here, for the evaluation, and step and render by each of them in turn: what the first
+    has compiled the others find.
+    """
     settings = job.config.fit
     clouds = {room: _cloud(scene, room, job.config) for room in contenders(scene, settings)}
     room = max(clouds, key=lambda room: len(clouds[room].opacity_logits))
     nothing = jax.tree.map(lambda x: x[:0], clouds[room])
     first = next(_blank_views(scene, room))
-    fit_scene(
-        [clouds[room] if k == room else nothing for k in range(len(scene.rooms))],
-        lambda k: [first] if k == room else [],
-        settings=dataclasses.replace(settings, steps=1, rounds=1, curve_points=1, batch=1, refine_every=0),
-        raster=job.config.raster,
-        key=jax.random.key(0),
-        heldout=lambda k: [first],
-        capacity=capacity,
-        devices=jax.devices()[:1],
-    )
+
+    def fit(steps: int, workers: Sequence[RoomWorker] = ()) -> None:
+        fit_scene(
+            [clouds[room] if k == room else nothing for k in range(len(scene.rooms))],
+            lambda k: [first] if k == room else [],
+            settings=dataclasses.replace(settings, steps=steps, rounds=1, curve_points=1, batch=1, refine_every=0),
+            raster=job.config.raster,
+            key=jax.random.key(0),
+            heldout=lambda k: [first],
+            capacity=fitters.capacity,
+            devices=jax.devices()[:1],
+            workers=workers,
+        )
+
+    fit(0 if fitters.workers else 1)
+    for worker in fitters.workers:
+        fit(1, [worker])
 
 
 def _tell(rehearsal: Future) -> None:
-    if error := rehearsal.exception():
+    error = rehearsal.exception()
+    if error is not None and not isinstance(error, WorkerClosed):  # closed: the run has ended before the rehearsal
         print(f"rehearsal of the fit: {type(error).__name__}: {error}; the fit compiles for itself", file=sys.stderr)
 
 
@@ -88,9 +101,7 @@ def contenders(scene: Scene, settings: FitSettings) -> list[int]:
 
 def _cloud(scene: Scene, room: int, config: RunConfig) -> Gaussians:
     rng = np.random.default_rng(0)
-    return starting_gaussians(
-        scene, room, _blank_views(scene, room), None, cameras=config.cameras, settings=config.fit, rng=rng
-    )
+    return starting_gaussians(scene, room, _blank_views(scene, room), None, cameras=config.cameras, settings=config.fit, rng=rng)
 
 
 def _blank_views(scene: Scene, room: int) -> Iterator[TrainingView]:

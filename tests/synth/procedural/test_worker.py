@@ -46,14 +46,14 @@ def test_what_goes_wrong_there_is_raised_here_and_it_goes_on(worker):
 
 def test_a_worker_that_is_gone_is_named():
     world = WorkerWorld(RECIPE, lanes=1)
-    world._process.kill()
+    world._process.popen.kill()
     with pytest.raises(RuntimeError, match=r"offline world ended \(exit code -9\)"):
         world.shoot(camera(0.4))
     world.close()
 
 
 def test_ctrl_c_is_not_for_the_worker(worker):
-    assert os.getsid(worker._process.pid) == worker._process.pid != os.getsid(0)
+    assert os.getsid(worker._process.popen.pid) == worker._process.popen.pid != os.getsid(0)
 
 
 CALLER = """
