@@ -9,7 +9,17 @@ from hypothesis import strategies as st
 
 from tests.splat.rooms import SIZE, look, views_of
 from wm.schema import FitSettings
-from wm.splat.cloud import SH_C0, Cloud, depth_normals, extended, initial_gaussians, quats_from_normals, surface_cloud, vacant
+from wm.splat.cloud import (
+    SH_C0,
+    Cloud,
+    depth_normals,
+    extended,
+    initial_gaussians,
+    one_a_cell,
+    quats_from_normals,
+    surface_cloud,
+    vacant,
+)
 
 
 def rotate(quats, v):
@@ -99,6 +109,8 @@ def test_what_a_cloud_leaves_bare_is_found_once_a_cell_and_covered_in_the_colour
     kept = part_of(cloud, cloud.points[:, 0] < cut)
     twice = part_of(cloud, np.tile(np.arange(len(cloud.points)), 2))
     bare = vacant(kept, twice.points, twice.normals, twice.spacings)
+    np.testing.assert_array_equal(bare, np.flatnonzero(twice.points[:, 0] >= cut))
+    bare = bare[one_a_cell(twice.points[bare], twice.normals[bare], twice.spacings[bare])]
     np.testing.assert_array_equal(bare, np.flatnonzero(cloud.points[:, 0] >= cut))
     more = dataclasses.replace(part_of(cloud, bare), colors=np.full((len(bare), 3), np.nan))
     whole = extended(kept, more)
@@ -117,6 +129,8 @@ def test_bare_detail_is_covered_in_its_own_finer_cells():
     normals = np.tile([0.0, 0.0, 1.0], (2000, 1))
     fine = np.where(np.arange(2000) < 1000, 0.1, 0.3)
     bare = vacant(cloud, points, normals, fine)
+    assert len(bare) == len(points)
+    bare = one_a_cell(points, normals, fine)
     assert (bare < 1000).sum() in range(36, 50) and (bare >= 1000).sum() in range(4, 10)
 
 

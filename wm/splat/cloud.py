@@ -102,7 +102,7 @@ def vacant(
     normals: Float[np.ndarray, "n 3"],
     spacings: Float[np.ndarray, "n"],
 ) -> Int[np.ndarray, "k"]:
-    """Where the cloud leaves a surface bare: the first point of each cell, in their order, if none of the cloud is about.
+    """Which points are where the cloud leaves a surface bare, in their order: none of the cloud is about.
 
     About is in the same cell of the largest spacing and facing the same way: views leave gaps of a fine cell wherever they see
     a surface at a slant, and the gaussians beside those close them.
@@ -115,10 +115,16 @@ def vacant(
         return np.zeros(0, np.int64)
     widest = spacings.max()
     covered = _cells(cloud.points, cloud.normals, np.full(len(cloud.points), widest), 0)
-    bare = np.flatnonzero(~np.isin(_cells(points, normals, np.full(len(points), widest), 0), covered))
-    fine = (spacings[bare] < widest).astype(np.int64)
-    _, first = np.unique(_cells(points[bare], normals[bare], spacings[bare], fine), return_index=True)
-    return np.sort(bare[first])
+    return np.flatnonzero(~np.isin(_cells(points, normals, np.full(len(points), widest), 0), covered))
+
+
+def one_a_cell(
+    points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], spacings: Float[np.ndarray, "n"]
+) -> Int[np.ndarray, "k"]:
+    """The first point of each cell, in their order; arguments as for `vacant`."""
+    fine = (spacings < spacings.max(initial=0)).astype(np.int64)
+    _, first = np.unique(_cells(points, normals, spacings, fine), return_index=True)
+    return np.sort(first)
 
 
 def extended(cloud: Cloud, more: Cloud) -> Cloud:

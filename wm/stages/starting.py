@@ -15,7 +15,7 @@ from wm.geometry.camera import camera_center, project_points
 from wm.geometry.exposed import exposed, room_eyes, room_surface
 from wm.geometry.surface_points import SurfacePoints, framed, in_sight, some_points
 from wm.schema import CameraSettings, FitSettings
-from wm.splat.cloud import Cloud, extended, initial_gaussians, vacant
+from wm.splat.cloud import Cloud, extended, initial_gaussians, one_a_cell, vacant
 from wm.splat.training import TrainingView
 from wm.stages.scene import Scene
 from wm.types import OUTSIDE, Gaussians, View
@@ -54,10 +54,11 @@ def starting_gaussians(
 
 def _bare(scene: Scene, room: int, cloud: Cloud, cameras: CameraSettings, settings: FitSettings) -> SurfacePoints:
     """Exposed points of the room's surface, one in every cell that the cloud leaves empty."""
-    surface = room_surface(scene.mesh, room, spacing=settings.spacing, detail_spacing=settings.detail_spacing)
-    empty = vacant(cloud, surface.position, surface.normal, _spacings(scene, surface, settings))
-    surface = some_points(surface, empty)
-    return some_points(surface, exposed(scene.rays, surface, room_eyes(scene.plan, scene.rays, room, cameras)))
+    points = room_surface(scene.mesh, room, spacing=settings.spacing, detail_spacing=settings.detail_spacing)
+    points = some_points(points, vacant(cloud, points.position, points.normal, _spacings(scene, points, settings)))
+    # exposed ones first: a cell may hold a layer that is hidden under another
+    points = some_points(points, exposed(scene.rays, points, room_eyes(scene.plan, scene.rays, room, cameras)))
+    return some_points(points, one_a_cell(points.position, points.normal, _spacings(scene, points, settings)))
 
 
 def _spacings(scene: Scene, points: SurfacePoints, settings: FitSettings) -> Float[np.ndarray, "p"]:
