@@ -50,7 +50,7 @@ def test_a_fit_that_is_ended_on_the_way_is_stored_and_goes_on_to_the_same_bytes(
     kept = {}
 
     def progress(done, total, info):
-        if done == 5:
+        if done == 1:  # whichever room it is, it has a step of its round yet to go
             raise OSError("the disk is full")
 
     def store(round_, room, arrays):
@@ -58,7 +58,7 @@ def test_a_fit_that_is_ended_on_the_way_is_stored_and_goes_on_to_the_same_bytes(
 
     with pytest.raises(OSError, match="the disk is full"):
         run(workers=workers, store=store, progress=progress)
-    assert any(int(arrays["step"]) not in (2, 4) for arrays in kept.values())  # in the middle of a round
+    assert any(int(arrays["step"]) == 1 for arrays in kept.values())
     again = run(workers=workers, heldout=HELDOUT.__getitem__, load=lambda round_, room: kept.get((round_, room)))
     assert raw(again.gaussians) == raw(here.gaussians)
 
@@ -105,7 +105,7 @@ def test_an_error_there_is_raised_here_as_it_was_and_the_worker_goes_on(workers,
 
 def test_a_worker_that_dies_is_one_error_that_names_its_room_and_is_started_again(workers, here):
     def progress(done, total, info):
-        if done == 5:
+        if done == 1:  # whichever room it is, it has a step of its round yet to go
             workers[0]._process.popen.kill()
 
     with pytest.raises(RuntimeError, match=r"the process that fitted room \d has ended: killed, .* memory"):
