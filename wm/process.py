@@ -10,6 +10,7 @@ import contextlib
 import importlib
 import os
 import pickle
+import shutil
 import subprocess
 import sys
 import threading
@@ -25,7 +26,13 @@ class WorkerProcess:
     """A running worker, and our ends of its pipes."""
 
     def __init__(
-        self, module: str, *, lanes: int = 1, core: int | None = None, environment: Mapping[str, str] | None = None
+        self,
+        module: str,
+        *,
+        lanes: int = 1,
+        core: int | None = None,
+        environment: Mapping[str, str] | None = None,
+        scratch: str | None = None,
     ) -> None:
         """Starts it.
 
@@ -35,11 +42,12 @@ class WorkerProcess:
             core: the only one that it may use, where the system can be told so; it is held to it before it imports the module,
                 so that libraries that count cores find one. None: all of ours.
             environment: variables that it has besides ours.
+            scratch: a folder of ours that it removes if we end before it; None: none.
         """
         pairs = [Pipe() for _ in range(lanes)]
         theirs = [pipe.fileno() for _, pipe in pairs]
         paths = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # this wm, wherever it was imported from
-        command = [sys.executable, "-m", __name__, module, str(core), *map(str, theirs)]
+        command = [sys.executable, "-m", __name__, module, str(core), scratch or "", *map(str, theirs)]
         variables = os.environ | paths | dict(environment or {})
         self.popen = subprocess.Popen(command, stdin=subprocess.PIPE, pass_fds=theirs, env=variables, start_new_session=True)
         for _, pipe in pairs:
@@ -47,9 +55,12 @@ class WorkerProcess:
         self.pipes: list[Connection] = [pipe for pipe, _ in pairs]
         self.close = weakref.finalize(self, _end, self.popen, self.pipes)
 
-    def exit_code(self) -> int:
-        """Of a worker whose pipes have closed: waits until it has ended. Negative: the signal that ended it."""
-        return self.popen.wait()
+    def exit_code(self, *, patience: float) -> int | None:
+        """Of a worker whose pipes have closed, as soon as it has ended; None: not within `patience` seconds. Negative: the signal
+        that ended it."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            return self.popen.wait(patience)
+        return None
 
 
 def portable(error: BaseException) -> BaseException:
@@ -69,17 +80,19 @@ def _end(popen: subprocess.Popen, pipes: list[Connection]) -> None:
         pipe.close()
 
 
-def _end_with_the_caller() -> None:
+def _end_with_the_caller(scratch: str) -> None:
     """Waits for the end of standard input, which nothing is ever written to: whatever is under way then is for nobody."""
     os.read(0, 1)
+    if scratch:
+        shutil.rmtree(scratch, ignore_errors=True)
     os._exit(1)
 
 
-def _main(module: str, core: str, *pipes: str) -> None:
+def _main(module: str, core: str, scratch: str, *pipes: str) -> None:
     if core != "None":
         with contextlib.suppress(AttributeError, OSError):  # not Linux, or a core that was taken from us meanwhile
             os.sched_setaffinity(0, {int(core)})
-    threading.Thread(target=_end_with_the_caller, daemon=True).start()
+    threading.Thread(target=_end_with_the_caller, args=(scratch,), daemon=True).start()
     prepare_process()
     importlib.import_module(module).serve([Connection(int(number)) for number in pipes])
 

@@ -128,6 +128,8 @@ def validate_config(config: RunConfig, *, backends: Mapping[str, tuple[str, ...]
             problems.append(f"{key}={values[key]!r}: must be a number from {low:g} to {high:g}")
     if config.workers is not None and not _within(config.workers, 0, 1000):
         problems.append(f"workers={config.workers!r}: must be a number from 0 to 1000, or null for one a core")
+    if config.raster.compositor in ("kernels", "interpreted") and config.raster.tile.bit_count() != 1:
+        problems.append(f"raster.tile={config.raster.tile!r}: kernels want a power of two")
     problems += _scene_problems(config)
     if config.verify.low > config.verify.high:
         problems.append(f"verify.low={config.verify.low!r}: must not exceed verify.high={config.verify.high!r}")

@@ -12,7 +12,7 @@ import jax
 import numpy as np
 from bench_scene import Step, bench_step, best, seconds
 from records import Record, write
-from whole_fit import FULL, STARTED, TINY, seen, views_in
+from whole_fit import FULL, TINY, seen, views_in
 
 from wm.schema import RasterSettings
 from wm.splat import fit, initial_gaussians, render
@@ -23,6 +23,8 @@ CASES = (
 )
 WALKS = (("kernels", {}), ("loops", {}), ("loops, all tiles in a block", {"block": 1 << 20}))
 REPEATS = {"kernels": 20, "loops": 2}
+STARTED = 3
+"""Steps of the fit after which all is compiled."""
 
 
 def records(tiny: bool) -> Iterator[Record]:

@@ -36,7 +36,8 @@ def records(tiny: bool) -> Iterator[Record]:
     start = initial_gaussians(views(0), settings=settings, rng=np.random.default_rng(0))
     visible, pairs = seen(start, views(0))
     for how, places in ways():
-        record = functools.partial(Record, figure="whole_fit", case=f"two rooms, 688 x 384, {cores()} {how}")
+        record = functools.partial(Record, figure="whole_fit", case=f"two rooms, 688 x 384, {how}")
+        yield record(key="cores", value=cores(), unit="")
         yield record(key="gaussians a room", value=len(start.means) / 1e3, unit="1e3")
         yield record(key="visible", value=visible / 1e3, unit="1e3")
         yield record(key="pairs a view", value=pairs / 1e6, unit="1e6")

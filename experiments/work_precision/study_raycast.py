@@ -69,7 +69,7 @@ class Exact:
     hits: RayHits
 
     @classmethod
-    def of(cls, mesh: Mesh, origins: np.ndarray, directions: np.ndarray, sample: int = 200) -> "Exact":
+    def of(cls, mesh: Mesh, origins: np.ndarray, directions: np.ndarray, sample: int = 400) -> "Exact":
         some = np.random.default_rng(1).choice(len(origins), min(sample, len(origins)), replace=False)
         return cls(some=some, hits=cast_rays_reference(mesh, origins[some], directions[some]))
 

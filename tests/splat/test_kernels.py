@@ -79,7 +79,7 @@ def test_they_translate_to_triton_where_there_is_no_gpu():
 
 @pytest.mark.skipif(jax.default_backend() == "gpu", reason="there is a GPU")
 def test_kernels_are_refused_where_there_is_no_gpu():
-    with pytest.raises(ValueError, match="interpret"):
+    with pytest.raises(ValueError, match="needs an NVIDIA GPU"):
         jax.block_until_ready(render(to_float32(cloud()), camera(), settings=RasterSettings(compositor="kernels")))
 
 

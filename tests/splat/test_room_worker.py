@@ -105,7 +105,7 @@ def test_an_error_there_is_raised_here_as_it_was_and_the_worker_goes_on(workers,
 
 def test_a_worker_that_dies_is_one_error_that_names_its_room_and_is_started_again(workers, here):
     def progress(done, total, info):
-        if done == 1:  # whichever room it is, it has a step of its round yet to go
+        if done == 1:
             workers[0]._process.popen.kill()
 
     with pytest.raises(RuntimeError, match=r"the process that fitted room \d has ended: killed, .* memory"):
@@ -138,20 +138,39 @@ from wm.splat.room_worker import RoomWorker
 def progress(done, total, info):
     print("a step", flush=True)
 
-t.run(workers=[RoomWorker(compiled=sys.argv[1])], settings=t.dataclasses.replace(t.SETTINGS, steps=1_000_000), progress=progress)
+workers = [RoomWorker(compiled=sys.argv[1], scratch=sys.argv[2])]
+t.run(workers=workers, settings=t.dataclasses.replace(t.SETTINGS, steps=1_000_000), progress=progress)
 """
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
-def test_it_ends_with_its_caller_in_the_middle_of_a_room(how, workers):
-    """The worker holds the caller's standard output and error too: they end when both have. It says nothing when interrupted."""
+def test_it_ends_with_its_caller_in_the_middle_of_a_room(how, workers, tmp_path):
+    """The worker holds the caller's standard output and error too: they end when both have. It says nothing when interrupted, and
+    clears up."""
+    (tmp_path / "scratch").mkdir()
     paths = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "JAX_PLATFORMS": "cpu"}
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     run(workers=workers)
-    command = [sys.executable, "-c", CALLER, workers[0]._environment["JAX_COMPILATION_CACHE_DIR"]]
+    command = [sys.executable, "-c", CALLER, workers[0]._environment["JAX_COMPILATION_CACHE_DIR"], str(tmp_path / "scratch")]
     caller = subprocess.Popen(command, env=paths, start_new_session=True, **pipes)
     assert caller.stdout is not None and caller.stdout.readline()
     os.killpg(caller.pid, how)
     _, said = caller.communicate(timeout=120)
     assert caller.returncode != 0
     assert said.count(b"Traceback") == (1 if how == signal.SIGINT else 0)
+    # interrupted, a caller still ends its workers and clears up itself
+    assert how == signal.SIGINT or not (tmp_path / "scratch").exists()
+
+
+def test_a_worker_that_died_between_rooms_is_started_again(workers, here):
+    run(workers=workers[:1])
+    workers[0]._process.popen.kill()
+    workers[0]._process.popen.wait()
+    assert raw(run(workers=workers[:1]).gaussians) == raw(here.gaussians)
+
+
+def test_what_workers_have_compiled_ends_with_them():
+    with room_workers(1) as workers:
+        folder = workers[0]._scratch
+        assert os.path.isdir(folder)
+    assert not os.path.exists(folder)

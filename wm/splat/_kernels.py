@@ -183,11 +183,10 @@ class _Walk:
         if has_slope(self.settings):
             features[DEPTH] -= tilt[0] * x + tilt[1] * y
         alpha = alpha_at(self.u - x, self.v - y, l0, l1, l2, log_opacity, self.settings)
-        return _Gaussian(id_, (x, y), (l0, l1, l2), features, tilt, alpha)
+        return _Gaussian((x, y), (l0, l1, l2), features, tilt, alpha)
 
 
 class _Gaussian(NamedTuple):
-    id: Any
     place: Any  # x, y of its mean from the tile's centre
     root: Any  # l0, l1, l2
     features: Any  # what is composited: depth as it is at the tile's centre

@@ -1,7 +1,7 @@
 """The views of a step: which they are, and the gradient of each, over as many devices as there are.
 
 Gradients do not depend on one another, so each device takes every d-th view of the batch in a thread of its own: projection, plan
-on the host, gradient. They come back in the order of the batch, so their mean does not depend on the number of devices.
+(planner.py), gradient. They come back in the order of the batch, so their mean does not depend on the number of devices.
 """
 
 import dataclasses

@@ -52,6 +52,10 @@ def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) 
     for name, known in (("compositor", COMPOSITORS), ("planner", PLANNERS)):
         if getattr(settings, name) not in known:
             raise ValueError(f"settings.{name} {getattr(settings, name)!r} is unknown; one of {', '.join(known)} would be right")
+    if settings.compositor == "kernels" and jax.default_backend() != "gpu":
+        raise ValueError(
+            "settings.compositor 'kernels' needs an NVIDIA GPU and JAX sees none; auto, loops or interpreted would be right"
+        )
     if settings.compositor in ("kernels", "interpreted") and settings.tile.bit_count() != 1:
         raise ValueError(f"settings.tile {settings.tile} does not suit kernels; a power of two would be right")
 

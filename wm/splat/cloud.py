@@ -74,7 +74,7 @@ def surface_cloud(views: Iterable[TrainingView], spacing: float, detail_spacing:
     edges = np.array([spacing, spacing if detail_spacing is None else detail_spacing])
     if not (edges > 0).all():
         raise ValueError(f"the spacing of the initial cloud must be positive, not {spacing} and {detail_spacing}")
-    cells = _Cells(columns=11)
+    cells = _SumsByKey(columns=11)
     for view in views:
         own = view.depth > 0 if view.own is None else (view.depth > 0) & view.own
         points = unproject_depth(view.camera, view.depth)[own]
@@ -263,7 +263,7 @@ def _cells(points, normals, spacing, fine):
     return (((fine << _BITS | x) << _BITS | y) << _BITS | z) << 3 | facing
 
 
-class _Cells:
+class _SumsByKey:
     """Sums of rows by key. Memory is bounded by a few times what there are keys, and sorting by a few times what arrives."""
 
     def __init__(self, columns: int) -> None:

@@ -38,7 +38,7 @@ class RoomTask:
     seed: tuple[int, ...]  # of the scene
     rows: int  # what the room's gaussians are padded to
     columns: int  # the least that neighbours are padded to in a view; 0: a scene without neighbours
-    seconds: float  # since the fit of the scene began
+    seconds: float  # since the fit of the scene began, when the task was made
 
 
 @runtime_checkable

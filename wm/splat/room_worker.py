@@ -58,18 +58,19 @@ class _Broken:
 class RoomWorker:
     """A `Place` that is another process. It is started when it is given its first room, and again after it died."""
 
-    def __init__(self, core: int | None = None, compiled: str | None = None) -> None:
+    def __init__(self, core: int | None = None, compiled: str | None = None, scratch: str | None = None) -> None:
         """Nothing yet.
 
         Args:
             core: that it is held to; None: any.
             compiled: a folder in which workers find what others have compiled; None: each compiles for itself.
+            scratch: a folder that is to go if the caller is killed.
         """
         # However many devices the caller has asked JAX for: a worker has one core, and one room at a time.
         self._environment = {"JAX_PLATFORMS": "cpu", "JAX_NUM_CPU_DEVICES": "1"}
         if compiled is not None:
             self._environment |= {"JAX_COMPILATION_CACHE_DIR": compiled, "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.2"}
-        self._core, self._process, self._closed = core, None, False
+        self._core, self._scratch, self._process, self._closed = core, scratch, None, False
         self._turn, self._changing = threading.Lock(), threading.Lock()
 
     def fit(self, task: RoomTask, capacity: Capacity, report: Report, keep: Keep) -> RoomState:
@@ -84,10 +85,14 @@ class RoomWorker:
                 process.pipes[0].send((task, capacity.entries))
                 ended, refused = _attend(process.pipes[0], report, keep)
             except (EOFError, OSError) as error:
+                code = process.exit_code(patience=5.0)  # before it is told to end: it has its own reason
                 self._stop()
                 if self._closed:
                     raise WorkerClosed from None
-                raise RuntimeError(_died(task.room, process.exit_code())) from error
+                raise RuntimeError(_died(task.room, code)) from error
+            except BaseException:  # it waits for an answer that will not come
+                self._stop()
+                raise
         if isinstance(ended, _Finished):
             _grow(capacity, ended.entries)
             return ended.state
@@ -105,8 +110,11 @@ class RoomWorker:
         with self._changing:
             if self._closed:
                 raise WorkerClosed
+            if self._process is not None and self._process.popen.poll() is not None:  # it has died since its last room
+                self._process.close()
+                self._process = None
             if self._process is None:
-                self._process = WorkerProcess(__name__, core=self._core, environment=self._environment)
+                self._process = WorkerProcess(__name__, core=self._core, environment=self._environment, scratch=self._scratch)
             return self._process
 
     def _stop(self) -> None:
@@ -118,10 +126,14 @@ class RoomWorker:
 
 @contextlib.contextmanager
 def room_workers(count: int) -> Iterator[list[RoomWorker]]:
-    """Workers on cores of their own as far as there are any, which share what they compile; closed after the block."""
+    """Workers on cores of their own as far as there are any; closed after the block.
+
+    They share what they compile: in the folder that JAX_COMPILATION_CACHE_DIR names, else in one that ends with them.
+    """
     cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else [None]
-    with tempfile.TemporaryDirectory(prefix="wm-compiled-", ignore_cleanup_errors=True) as compiled:
-        workers = [RoomWorker(cores[k % len(cores)], compiled) for k in range(count)]
+    with tempfile.TemporaryDirectory(prefix="wm-compiled-", ignore_cleanup_errors=True) as scratch:
+        compiled = os.environ.get("JAX_COMPILATION_CACHE_DIR") or scratch
+        workers = [RoomWorker(cores[k % len(cores)], compiled, scratch) for k in range(count)]
         try:
             yield workers
         finally:
@@ -129,7 +141,7 @@ def room_workers(count: int) -> Iterator[list[RoomWorker]]:
                 worker.close()
 
 
-def _died(room: int, code: int) -> str:
+def _died(room: int, code: int | None) -> str:
     why = "killed, as the system does where memory runs out; fewer workers need less" if code == -9 else f"exit code {code}"
     return f"the process that fitted room {room} has ended: {why}"
 

@@ -81,10 +81,11 @@ def fit_scene(
         devices: one room at a time each, or several for a room and its batches where there are fewer rooms; all CPU devices if
             None (`jax_num_cpu_devices` says how many), or all accelerators.
         workers: processes (`room_workers`) that fit one room at a time each, instead of devices of this one. Same bytes as on
-            the CPU here.
+            the CPU here, if no `jax.config.update` of the caller decides them: workers have its environment only.
 
     Returns: the gaussians, the curves and what stopped early.
-    Raises: the error of a room (of `views`, say) once all rooms ended their round. A KeyboardInterrupt as soon as every room
+    Raises: the error of a room (of `views`, say) once all rooms ended their round; a RuntimeError that names the room if the
+        process that fitted it has died, WorkerClosed if it was closed. A KeyboardInterrupt as soon as every room
         under way has ended its step; all that was reached is stored.
     """
     scene = _Scene(
@@ -174,7 +175,7 @@ class _Scene:
         checkpoints, (first, last) = self.checkpoints, self.stretch(round_)
         task = self._task(room, state, last)
         try:
-            if state.stopped or not task.views or self._count(room) == 0:
+            if task is None:
                 self.report.skip(last - first)
                 state = dataclasses.replace(state, step=last)
             else:
@@ -190,8 +191,12 @@ class _Scene:
     def _report(self, room: int, done: int, info: dict) -> None:
         self.report.step(info | {"room": room})
 
-    def _task(self, room: int, state: RoomState, last: int) -> RoomTask:
-        views, heldout = map(_read, (self.views(room), self.heldout(room)))
+    def _task(self, room: int, state: RoomState, last: int) -> RoomTask | None:
+        """What the fit of a room reads; None: there is nothing to fit."""
+        views = [] if state.stopped or self._count(room) == 0 else _read(self.views(room))
+        if not views:
+            return None
+        heldout = _read(self.heldout(room))
         return RoomTask(
             room=room,
             state=state,

@@ -27,8 +27,8 @@ def test_meshed_wheels_interlock_and_do_not_cut_each_other(teeth, other, turned,
     shared = first.intersection(gear(module * other, other, turned=turn, at=at)).area
     clash = first.intersection(gear(module * other, other, turned=turn + math.pi / other, at=at)).area
     assert shared < 0.1 * tooth < clash
-    tips = [np.hypot(*np.asarray(first.exterior.coords).T).max(), module * other * (1 + 1.71 / other)]
-    assert sum(tips) > reach
+    wheels = (first, gear(module * other, other))
+    assert sum(np.hypot(*np.asarray(wheel.exterior.coords).T).max() for wheel in wheels) > reach
 
 
 def test_drawn_wheels_on_a_lattice_mesh():

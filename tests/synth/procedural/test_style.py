@@ -80,6 +80,19 @@ def test_a_family_with_marble_of_its_own_keeps_it():
     assert style_of("roman villa with marble floors").surfaces("hall").floor.material == "sectile"
 
 
+@pytest.mark.parametrize(
+    ("theme", "family"),
+    [
+        ("gothic hall with brass lamps and copper roof", "gothic"),
+        ("victorian study with brass lamps and a clock", "victorian"),
+        ("a snug kitchen with copper pans", None),
+        ("a clockmaker's house of brass and copper", "clockwork"),
+    ],
+)
+def test_a_metal_or_a_clock_does_not_make_a_family(theme, family):
+    assert style_of(theme).family == (family or style_of("a snug kitchen with pans").family)
+
+
 def test_an_unknown_slot_is_named():
     with pytest.raises(KeyError, match="unobtainium"):
         style_of("gothic").slot("unobtainium")

@@ -82,7 +82,7 @@ LAMPS: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "modern": {"": ("drum", "globe"), "kitchen": ("dome",), "dining": ("dome", "globe"), "bathroom": ("globe",)},
 }  # fmt: skip
-"""Two or three sorts of lamp to a house; families that are not here have the one of their form everywhere."""
+"""What lamps may be, by type of room: one sort to each type in a house; families that are not here have the one of their form."""
 
 ABSENT: dict[str, frozenset[str]] = {
     "scandinavian": frozenset({"statue", "column", "candelabra", "grandfather clock", "chest", "lectern"}),

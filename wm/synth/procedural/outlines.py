@@ -69,7 +69,7 @@ def gear(
       tooth: height of a tooth, half of it beyond the pitch circle; drawn from `radius` and `teeth` where 0.
     """
     pitch = 2 * math.pi / teeth
-    high = tooth or 1.9 * radius / teeth * 2
+    high = tooth or 3.8 * radius / teeth
     shares, reaches = np.array([-0.27, -0.13, 0.13, 0.27]), np.array([-0.5, 0.45, 0.45, -0.5])
     angle = (turned + pitch * (np.arange(teeth)[:, None] + shares)).ravel()
     reach = np.tile(radius + high * reaches, teeth)
@@ -82,7 +82,7 @@ def gear(
             for a in turned + 0.3 + 2 * math.pi * np.arange(spokes) / spokes
         ]
         wheel = wheel.difference(ring.difference(shapely.union_all(bars)))
-    return wheel if isinstance(wheel, shapely.Polygon) else circle(radius, at=at)
+    return wheel if isinstance(wheel, shapely.Polygon) else circle(radius, at=at)  # so small that its spokes came off
 
 
 def meshed(turned: Real, teeth: int, other: int, towards: Real) -> float:

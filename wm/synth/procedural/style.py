@@ -51,7 +51,10 @@ WALL_WORDS: dict[str, tuple[str, float, tuple[str, str, str]]] = {
     "wallpapered": ("wallpaper_damask", 0.6, ("8a9a8a", "a8b5a0", "c9b880")),
     "plaster": ("plaster", 1.0, ("e0d3bd", "c9b89c", "c9b89c")),
 }
-STRUCTURE = ("wall", "walls", "floor", "floors", "ceiling", "ceilings", "tile", "tiles", "board", "boards", "stone", "marble")
+HINTS = frozenset({"brass", "copper", "clock"})
+"""Words that say nothing of a family unless another of its words is there: a gothic hall may have brass lamps."""
+OF_SURFACES = ("wall", "walls", "floor", "floors", "ceiling", "ceilings", "tile", "tiles", "board", "boards", "stone", "marble")
+"""Nouns after which a colour word is of the building, not of its textiles."""
 NIGHT = ("night", "nocturnal", "midnight", "moonlit", "moonlight")
 DUSK = ("sunset", "dusk", "dawn", "sunrise", "evening", "twilight")
 DIM = ("dark", "gloomy", "moody", "dim", "candlelit", "haunted", "shadowy")
@@ -89,6 +92,7 @@ def family_of(words: list[str]) -> str | None:
     a beach house.
     """
     votes = {name: [i for i, word in enumerate(words) if word in sheet.words] for name, sheet in FAMILIES.items()}
+    votes = {name: found if any(words[i] not in HINTS for i in found) else [] for name, found in votes.items()}
     best = min(votes, key=lambda name: (name == NEUTRAL or not votes[name], -len(votes[name]), votes[name][:1]))
     best = best if votes[best] else NEUTRAL
     return best if votes[best] else None
@@ -121,7 +125,7 @@ def tinted(sheet: Sheet, words: list[str]) -> Sheet:
     "white walls" says nothing of the textiles.
     """
     followed = zip(words, [*words[1:], ""])
-    colors = [COLOR_WORDS[word] for word, noun in followed if word in COLOR_WORDS and noun not in STRUCTURE]
+    colors = [COLOR_WORDS[word] for word, noun in followed if word in COLOR_WORDS and noun not in OF_SURFACES]
     if colors:
         sheet = dataclasses.replace(
             sheet, fabric=colors[0], rug=colors[0], accents=(*colors, *sheet.accents)[: len(sheet.accents)]

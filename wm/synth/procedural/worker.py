@@ -52,7 +52,7 @@ class WorkerWorld:
             self._start()
             answer = _asked(lane, (camera, edit))
         except (EOFError, OSError) as error:
-            code = self._process.exit_code()
+            code = self._process.exit_code(patience=5.0)
             raise RuntimeError(f"the process that shades the offline world ended (exit code {code})") from error
         finally:
             self._free.put(lane)
