@@ -64,17 +64,26 @@ def test_views_side_by_side_are_those_one_by_one():
     parts = [jit_project(to_float32(cloud()), camera(seed=seed)) for seed in (1, 2)]
     together = jax.tree.map(lambda *x: np.stack(x), *parts)
     plans = plan_views(together, *SIZE)
-    images = jax.jit(jax.vmap(lambda projected, plan: rasterize(projected, plan, *SIZE, with_(TILES[0], "interpreted")).rgb))
-    for part, image in zip(parts, images(together, plans)):
-        np.testing.assert_allclose(image, rasterize(part, plan_tiles(part, *SIZE), *SIZE).rgb, atol=1e-6)
+
+    def seen(projected, plan, constants):
+        return jax.value_and_grad(lambda projected: rasterize(projected, plan, *SIZE, constants).rgb.sum())(projected)
+
+    sums, derivatives = jax.jit(jax.vmap(lambda *view: seen(*view, with_(TILES[0], "interpreted"))))(together, plans)
+    for k, part in enumerate(parts):
+        alone, derivative = seen(part, plan_tiles(part, *SIZE), TILES[0])
+        np.testing.assert_allclose(sums[k], alone, rtol=1e-6)
+        np.testing.assert_allclose(derivatives.color[k], derivative.color, atol=1e-5)
 
 
-def test_they_translate_to_triton_where_there_is_no_gpu():
+@pytest.mark.parametrize(("compositor", "kernels"), [("kernels", True), ("auto", True), ("loops", False)])
+def test_they_translate_to_triton_where_there_is_no_gpu(compositor, kernels, monkeypatch):
     projected = jit_project(to_float32(cloud()), camera())
     plan, seen = plan_tiles(projected, *SIZE), to_float32(cotangent(camera()))
-    for compositor, kernels in (("kernels", True), ("loops", False)):
-        traced = image_and_derivative.trace(projected, plan, seen, with_(TILES[0], compositor))
-        assert ("__gpu$xla.gpu.triton" in traced.lower(lowering_platforms=("cuda",)).as_text()) == kernels
+    monkeypatch.setattr(jax, "default_backend", lambda: "gpu")
+    traced = jax.jit(image_and_derivative.__wrapped__, static_argnames="constants").trace(
+        projected, plan, seen, with_(TILES[0], compositor)
+    )
+    assert ("__gpu$xla.gpu.triton" in traced.lower(lowering_platforms=("cuda",)).as_text()) == kernels
 
 
 @pytest.mark.skipif(jax.default_backend() == "gpu", reason="there is a GPU")
