@@ -1,7 +1,7 @@
 """Rooms fitted in processes of their own, a core each.
 
-XLA runs all programs of a process on one pool of threads, a thread a core: two rooms side by side in one process get a fifth more
-than one alone, in two processes twice as much (experiments/splat_speed). So a worker (wm.process), held to one core, is
+XLA runs all programs of a process on one pool of threads, and Python all that is between them under one lock, which two rooms
+hardly notice (experiments/splat_speed) and many cores may. So a worker (wm.process), held to one core, is
 given a room at a time, with all that its fit reads. After every step it tells its caller, and waits to be told to go on, to
 hand over its state, or to end: the caller alone counts, stores, and hears Ctrl-C. The bytes are those of a fit here.
 """

@@ -1,4 +1,4 @@
-"""What fits the rooms of a scene: processes if there are several cores and rooms, and the shapes that they compile for."""
+"""What fits the rooms of a scene: processes if they are asked for, and the shapes that rooms are compiled for."""
 
 import dataclasses
 import os
@@ -33,7 +33,7 @@ def fitters(config: RunConfig, scene: Scene) -> Iterator[Fitters]:
 def worker_count(asked: int | None, rooms: int) -> int:
     """As many as asked for, but no more than there are rooms; none on an accelerator, which all rooms share.
 
-    Not asked for a number, one a core; but a single one would have nothing for it.
+    Asked for None, one a core; but a single one would have nothing for it.
     """
     if os.name != "posix" or jax.default_backend() != "cpu":
         return 0
