@@ -168,7 +168,7 @@ class _Walk:
 
     def __init__(self, table, ids, tile, start, count, columns: int, settings: RasterSettings) -> None:
         side = settings.tile
-        pixel = jnp.arange(side * side)
+        pixel = jnp.arange(side * side)  # `_tile_sums.offsets` in the kernel's own terms: it cannot close over an array
         self.u, self.v = ((x + (0.5 - side / 2)).astype(jnp.float32) for x in (pixel % side, pixel // side))
         self.x, self.y = (((x.astype(jnp.float32) + 0.5) * side) for x in (tile % columns, tile // columns))
         self.table, self.ids, self.start, self.count, self.settings = table, ids, start, count, settings

@@ -1,9 +1,9 @@
 """Rooms fitted in processes of their own, a core each.
 
 XLA runs all programs of a process on one pool of threads, and Python all that is between them under one lock, which two rooms
-hardly notice (experiments/splat_speed) and many cores may. So a worker (wm.process), held to one core, is
-given a room at a time, with all that its fit reads. After every step it tells its caller, and waits to be told to go on, to
-hand over its state, or to end: the caller alone counts, stores, and hears Ctrl-C. The bytes are those of a fit here.
+hardly notice (experiments/splat_speed) and many cores may. So a worker (wm.process), held to one core, is given a room at a time,
+with all that its fit reads. After every step it tells its caller, and waits to be told to go on, to hand over its state, or to
+end: the caller alone counts, stores, and hears Ctrl-C. The bytes are those of a fit here.
 """
 
 import contextlib
@@ -131,9 +131,10 @@ def room_workers(count: int) -> Iterator[list[RoomWorker]]:
     They share what they compile: in the folder that JAX_COMPILATION_CACHE_DIR names, else in one that ends with them.
     """
     cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else [None]
-    with tempfile.TemporaryDirectory(prefix="wm-compiled-", ignore_cleanup_errors=True) as scratch:
-        compiled = os.environ.get("JAX_COMPILATION_CACHE_DIR") or scratch
-        workers = [RoomWorker(cores[k % len(cores)], compiled, scratch) for k in range(count)]
+    named = os.environ.get("JAX_COMPILATION_CACHE_DIR")
+    temporary = tempfile.TemporaryDirectory(prefix="wm-compiled-", ignore_cleanup_errors=True) if count and not named else None
+    with temporary or contextlib.nullcontext() as scratch:
+        workers = [RoomWorker(cores[k % len(cores)], named or scratch, scratch) for k in range(count)]
         try:
             yield workers
         finally:

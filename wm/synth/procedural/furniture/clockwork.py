@@ -45,7 +45,9 @@ def train(rng: np.random.Generator, first: Wheel, links: tuple[tuple[int, float,
         towards = math.radians(degrees + float(rng.uniform(-8, 8)))
         reach = driver.radius + radius
         x, z = driver.x + reach * math.cos(towards), driver.z + reach * math.sin(towards)
-        wheels.append(Wheel(x, z, radius, teeth, meshed(driver.turned, driver.teeth, teeth, towards), (first.metal + k + 1) % 4))
+        wheels.append(
+            Wheel(x, z, radius, teeth, meshed(driver.turned, driver.teeth, teeth, towards), (first.metal + k + 1) % len(METALS))
+        )
     return wheels
 
 
