@@ -92,9 +92,11 @@ def _main(module: str, core: str, scratch: str, *pipes: str) -> None:
     if core != "None":
         with contextlib.suppress(AttributeError, OSError):  # not Linux, or a core that was taken from us meanwhile
             os.sched_setaffinity(0, {int(core)})
-    threading.Thread(target=_end_with_the_caller, args=(scratch,), daemon=True).start()
+    watch = threading.Thread(target=_end_with_the_caller, args=(scratch,), daemon=True)
+    watch.start()
     prepare_process()
     importlib.import_module(module).serve([Connection(int(number)) for number in pipes])
+    watch.join()  # the pipes have closed because the caller has ended: it may be clearing up
 
 
 if __name__ == "__main__":
