@@ -12,7 +12,8 @@ import numpy as np
 
 from tests.splat.scenes import camera, cloud, gradients, images, undecided
 from wm.schema import RasterSettings
-from wm.splat.losses import depth_loss, normal_loss
+from wm.splat.losses import depth_loss
+from wm.splat.normal_loss import normal_loss
 from wm.splat.ssim import C1, C2, RADIUS, TAPS, ssim
 from wm.types import Camera, Gaussians
 

@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wm.geometry.camera import camera_rays, make_camera
-from wm.splat.losses import depth_loss, normal_loss, photometric_terms
+from wm.splat.losses import depth_loss, photometric_terms
+from wm.splat.normal_loss import normal_loss
 
 
 @jax.jit

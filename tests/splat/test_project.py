@@ -2,6 +2,7 @@
 
 import functools
 
+import chex
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -15,6 +16,7 @@ from wm.schema import RasterSettings
 from wm.splat import project
 from wm.splat._reference import _image_axes
 from wm.splat.harmonics import harmonics
+from wm.splat.project import pull_gaussians
 
 
 def test_means_go_where_the_camera_sends_points():
@@ -90,6 +92,14 @@ def test_culled_gaussians_have_no_opacity_no_extent_and_no_gradient(case):
     by_gaussians, by_camera = _gradient(gaussians, view)
     assert all(np.isfinite(x).all() for x in jax.tree.leaves((by_gaussians, by_camera)))
     assert all((x[0] == 0).all() for x in jax.tree.leaves(by_gaussians))
+
+
+@pytest.mark.parametrize("raster", [RasterSettings(), RasterSettings(antialias=True, depth=False)])
+def test_the_derivative_beside_a_known_result_is_the_derivative(raster):
+    gaussians, view = to_float32(cloud(40, degree=2)), to_float32(camera(seed=3))
+    projected, pull = jax.vjp(lambda gaussians: project(gaussians, view, raster), gaussians)
+    cotangent = jax.tree.map(lambda x: jnp.cos(jnp.arange(x.size, dtype=x.dtype)).reshape(x.shape), projected)
+    chex.assert_trees_all_equal(pull_gaussians(gaussians, view, projected, cotangent, raster), *pull(cotangent))
 
 
 def test_zero_quaternion_is_the_identity_with_zero_gradient():

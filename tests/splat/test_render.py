@@ -32,7 +32,8 @@ from tests.splat.scenes import (
 from wm.schema import RasterSettings
 from wm.splat import plan_tiles, planner, project, rasterize, render
 from wm.splat._reference import render_reference
-from wm.splat.losses import depth_loss, normal_loss, photometric_terms
+from wm.splat.losses import depth_loss, photometric_terms
+from wm.splat.normal_loss import normal_loss
 from wm.types import Camera, Gaussians, Render
 
 DEFAULT = RasterSettings()

@@ -12,7 +12,7 @@
 
     training.py   TrainingView: what a fit is shown
     cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
-    ssim.py       ssim, with its own derivative; losses.py: what a fit minimises
+    ssim.py       ssim, with its own derivative; normal_loss.py likewise; losses.py: what a fit minimises
     step.py       one step; batch.py: the views of a step, over devices; frozen.py: what a fit renders and does not move
     room_fit.py   the loop of steps; room_state.py, checkpoint.py: where it stands; padding.py: the shapes that steps share
     watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time

@@ -17,7 +17,7 @@ from wm.splat.frozen import join_columns
 from wm.splat.padding import Capacity, host, plan_with
 from wm.splat.planner import plans_on_host
 from wm.splat.project import Projected
-from wm.splat.step import Moving, Rates, StepTerms, Target, project_view, rasterize_view, view_gradient
+from wm.splat.step import Gradient, Moving, Rates, StepTerms, Target, project_view, rasterize_view, view_gradient
 from wm.splat.training import TrainingView
 from wm.types import Gaussians, Render
 
@@ -39,7 +39,7 @@ class ViewLoss:
 
     view: int
     terms: StepTerms  # on the host
-    gradient: Moving  # on the device
+    gradient: Gradient  # on the device
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -53,22 +53,26 @@ class Compiled:
     def loss(self, view: int, seen: SeenView, moving: Moving, rates: Rates, device: Device) -> ViewLoss:
         """The loss of one view and its gradient, computed on a device."""
         target, moving = jax.device_put((seen.target, moving), device)
-        projected, plan = self._planned(moving.gaussians, seen, target)
+        own = project_view(moving.gaussians, target.camera, raster=self.raster)
+        projected, plan = self._planned(own, seen)
         kind = (device, target.camera.width, target.camera.height, projected.mean2d.shape[1], len(plan.ids))
         with self.capacity.compiled(*kind):
-            terms, gradient = view_gradient(moving, target, seen.frozen, plan, rates, raster=self.raster, normals=self.normals)
+            terms, gradient = view_gradient(
+                moving, own, target, seen.frozen, plan, rates, raster=self.raster, normals=self.normals
+            )
         return ViewLoss(view=view, terms=jax.device_get(terms), gradient=gradient)
 
     def render(self, gaussians: Gaussians, seen: SeenView) -> Render:
         """What a view sees, on the host."""
         camera = seen.target.camera
-        projected, plan = self._planned(gaussians, seen, seen.target)
+        own = project_view(gaussians, camera, raster=self.raster)
+        projected, plan = self._planned(own, seen)
         return host(rasterize_view(projected, plan, width=camera.width, height=camera.height, raster=self.raster))
 
-    def _planned(self, gaussians: Gaussians, seen: SeenView, target: Target):
-        camera = target.camera
-        own = project_view(gaussians, camera, raster=self.raster)
+    def _planned(self, own: Projected, seen: SeenView):
+        """The projections of all gaussians of a view, and their plan."""
         projected = join_columns(host(own) if plans_on_host(own, self.raster) else own, seen.frozen)
+        camera = seen.target.camera
         return projected, plan_with(projected, camera.width, camera.height, self.raster, self.capacity)
 
 

@@ -76,6 +76,19 @@ def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEF
     return _project(to_float32(gaussians), to_float32(camera), settings)
 
 
+def pull_gaussians(
+    gaussians: Gaussians, camera: Camera, projected: Projected, cotangent: Projected, settings: RasterSettings = DEFAULTS
+) -> Gaussians:
+    """The derivative of `project` by the gaussians where its result is at hand, which `jax.vjp` would compute once more.
+
+    Args:
+        gaussians, camera, settings: what `project` was called with; float32 arrays.
+        projected: what it returned.
+        cotangent: by its leaves; that of the extent is ignored.
+    """
+    return _project_bwd(settings, (gaussians, camera, projected.opacity > 0), cotangent)[0]
+
+
 @functools.partial(jax.custom_vjp, nondiff_argnums=(2,))
 def _project(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> Projected:
     return _project_fwd(gaussians, camera, settings)[0]

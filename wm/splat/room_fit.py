@@ -15,8 +15,8 @@ from wm.schema import FitSettings
 from wm.splat.batch import Compiled, Device, SeenView, ViewLoss, batch_at, batch_losses
 from wm.splat.curve import HELDOUT, MEANS, FitPoint, curve_steps
 from wm.splat.exposure import move_exposure, no_exposure
-from wm.splat.losses import smooth_pixels
 from wm.splat.metrics import depth_error, normal_error, normals_from_depth, psnr
+from wm.splat.normal_loss import smooth_pixels
 from wm.splat.padding import host, pad_gaussians, pad_rows, unpad_rows
 from wm.splat.refine import is_due, no_residual, observe, refine
 from wm.splat.room_state import NOTHING_SINCE, RoomState
@@ -120,11 +120,7 @@ class RoomFit:
 
     def _moving(self, state: RoomState, gaussians: Gaussians, view: int) -> Moving:
         """What the gradient of a view is by: these gaussians, and what else the settings ask for."""
-        return Moving(
-            gaussians=gaussians,
-            exposure=None if state.exposure is None else state.exposure[view],
-            shift=None if state.residual is None else np.zeros((2, self.rows), np.float32),
-        )
+        return Moving(gaussians=gaussians, exposure=None if state.exposure is None else state.exposure[view])
 
     def _watched(self, state: RoomState, losses: Sequence[ViewLoss], rates: Rates) -> Watch:
         watch = state.watched
@@ -141,11 +137,11 @@ class RoomFit:
         exposure, residual = state.exposure, state.residual
         for loss in losses:
             if exposure is not None:
-                exposure = move_exposure(exposure, loss.view, np.asarray(loss.gradient.exposure), rates.exposure)
+                exposure = move_exposure(exposure, loss.view, np.asarray(loss.gradient.moving.exposure), rates.exposure)
             if residual is not None:
-                residual = observe(residual, np.asarray(loss.gradient.shift)[:, : self.count])
+                residual = observe(residual, np.asarray(loss.gradient.centres)[:, : self.count])
         means = np.mean([[getattr(loss.terms, name) for name in MEANS] for loss in losses], axis=0)
-        train, step = move(state.train, [loss.gradient.gaussians for loss in losses], rates.learning), state.step + 1
+        train, step = move(state.train, [loss.gradient.moving.gaussians for loss in losses], rates.learning), state.step + 1
         return dataclasses.replace(
             state,
             train=train,

@@ -19,8 +19,9 @@ from wm.splat._wide import WIDE
 from wm.splat.composite import rasterize
 from wm.splat.exposure import expose
 from wm.splat.frozen import join_columns
-from wm.splat.losses import depth_loss, normal_loss, photometric_terms
-from wm.splat.project import Projected, project
+from wm.splat.losses import depth_loss, photometric_terms
+from wm.splat.normal_loss import normal_loss
+from wm.splat.project import Projected, project, pull_gaussians
 from wm.splat.tiles import TilePlan
 from wm.types import Camera, Gaussians, Render
 
@@ -55,11 +56,19 @@ class Target:
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
 class Moving:
-    """What a view's loss is differentiated by, and the derivative: records of the same shape."""
+    """What a view's loss is differentiated by."""
 
     gaussians: Any
     exposure: Any = None  # [2, 3] of exposure.py; None: the render is compared as it is
-    shift: Any = None  # [2, n] pixels added to every centre, which is 0: its derivative tells where the residual pulls
+
+
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
+class Gradient:
+    """The derivative of a view's loss."""
+
+    moving: Any  # Moving
+    centres: Any  # [2, n] by the centres on the image, per pixel: where the residual pulls
 
 
 @jax.tree_util.register_dataclass
@@ -137,6 +146,7 @@ def rasterize_view(projected: Projected, plan: TilePlan, *, width: int, height: 
 @functools.partial(jax.jit, static_argnames=("raster", "normals"), compiler_options=WHOLE)
 def view_gradient(
     moving: Moving,
+    own: Projected,
     target: Target,
     frozen: Projected | None,
     plan: TilePlan,
@@ -144,11 +154,12 @@ def view_gradient(
     *,
     raster: RasterSettings,
     normals: bool,
-) -> tuple[StepTerms, Moving]:
+) -> tuple[StepTerms, Gradient]:
     """The loss of one view and its gradient.
 
     Args:
         moving: what the gradient is by. What is None is neither computed nor compiled.
+        own: its gaussians as this view sees them, of `project_view`.
         target: the view.
         frozen: other gaussians as this view sees them: rendered, not moved.
         plan: of the projections of the gaussians and of the frozen ones, in that order.
@@ -157,13 +168,11 @@ def view_gradient(
         normals: whether it has a term of normals, which needs depth.
     """
 
-    def objective(moving: Moving):
-        camera = target.camera
-        own = project(moving.gaussians, camera, raster)
-        if moving.shift is not None:
-            own = dataclasses.replace(own, mean2d=own.mean2d + moving.shift)
+    camera = target.camera
+
+    def objective(own: Projected, exposure):
         render = rasterize(join_columns(own, frozen), plan, camera.width, camera.height, raster)
-        rgb = render.rgb if moving.exposure is None else expose(render.rgb, moving.exposure)
+        rgb = render.rgb if exposure is None else expose(render.rgb, exposure)
         l1, dissimilarity = photometric_terms(rgb, target.rgb.astype(jnp.float32) / 255, target.mask)
         depth = depth_loss(render.depth, target.depth, target.mask) if raster.depth else jnp.float32(0)
         normal = jnp.float32(0)
@@ -172,10 +181,12 @@ def view_gradient(
         loss = (1 - rates.ssim) * l1 + rates.ssim * dissimilarity + rates.depth * depth + rates.normal * normal
         return loss, (l1, dissimilarity, depth, normal)
 
-    (loss, (l1, dissimilarity, depth, normal)), gradient = jax.value_and_grad(objective, has_aux=True)(moving)
+    by_all = jax.value_and_grad(objective, argnums=(0, 1), has_aux=True)
+    (loss, (l1, dissimilarity, depth, normal)), (by_own, by_exposure) = by_all(own, moving.exposure)
+    gradient = Moving(gaussians=pull_gaussians(moving.gaussians, camera, own, by_own, raster), exposure=by_exposure)
     finite = jax.tree.map(lambda leaf: jnp.isfinite(leaf).all(), gradient)
     terms = StepTerms(loss=loss, l1=l1, dissimilarity=dissimilarity, depth=depth, normal=normal, finite=finite)
-    return terms, gradient
+    return terms, Gradient(moving=gradient, centres=by_own.mean2d)
 
 
 @functools.partial(jax.jit, donate_argnums=0, compiler_options=WHOLE)
