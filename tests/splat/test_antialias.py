@@ -67,7 +67,7 @@ def test_it_is_off_unless_asked_for_and_costs_nothing_then():
     assert not RasterSettings().antialias
     gaussians, view = cloud(), camera()
     roots = [
-        str(jax.make_jaxpr(lambda g, on=on: jit_project(g, view, settings=RasterSettings(antialias=on)))(gaussians)).count("sqrt")
+        jit_project.lower(gaussians, view, settings=RasterSettings(antialias=on)).as_text().count("stablehlo.sqrt")
         for on in (False, True)
     ]
     assert roots[1] == roots[0] + 1

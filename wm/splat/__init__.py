@@ -6,6 +6,7 @@
                   planner.py: which of the two
     composite.py  rasterize: alpha compositing over a plan, with its own derivative; _loops.py, _kernels.py: the walk, for XLA
                   anywhere and for NVIDIA GPUs; _pairs.py: one gaussian at one pixel
+    _blocks.py    what is done for each gaussian, a block of them at a time
     checks.py     what is wrong with the arguments
     harmonics.py  the colour's dependence on direction
     _reference.py render_reference: the slow float64 twin of render

@@ -19,7 +19,7 @@ from wm.splat.planner import plans_on_host
 from wm.splat.project import Projected
 from wm.splat.step import Gradient, Moving, Rates, StepTerms, Target, project_view, rasterize_view, view_gradient
 from wm.splat.training import TrainingView
-from wm.types import Gaussians, Render
+from wm.types import Camera, Gaussians, Render
 
 Device = Any
 """A `jax.Device`, which is a variable to type checkers."""
@@ -30,7 +30,7 @@ class SeenView:
     """A view on the device, and the frozen gaussians as it sees them."""
 
     target: Target
-    frozen: Projected | None  # NumPy
+    frozen: Projected | None  # on the device too
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -52,27 +52,25 @@ class Compiled:
 
     def loss(self, view: int, seen: SeenView, moving: Moving, rates: Rates, device: Device) -> ViewLoss:
         """The loss of one view and its gradient, computed on a device."""
-        target, moving = jax.device_put((seen.target, moving), device)
+        target, frozen, moving = jax.device_put((seen.target, seen.frozen, moving), device)
         own = project_view(moving.gaussians, target.camera, raster=self.raster)
-        projected, plan = self._planned(own, seen)
+        projected, plan = self._planned(own, frozen, target.camera)
         kind = (device, target.camera.width, target.camera.height, projected.mean2d.shape[1], len(plan.ids))
         with self.capacity.compiled(*kind):
-            terms, gradient = view_gradient(
-                moving, own, target, seen.frozen, plan, rates, raster=self.raster, normals=self.normals
-            )
+            terms, gradient = view_gradient(moving, own, target, frozen, plan, rates, raster=self.raster, normals=self.normals)
         return ViewLoss(view=view, terms=jax.device_get(terms), gradient=gradient)
 
     def render(self, gaussians: Gaussians, seen: SeenView) -> Render:
         """What a view sees, on the host."""
         camera = seen.target.camera
         own = project_view(gaussians, camera, raster=self.raster)
-        projected, plan = self._planned(own, seen)
+        projected, plan = self._planned(own, seen.frozen, camera)
         return host(rasterize_view(projected, plan, width=camera.width, height=camera.height, raster=self.raster))
 
-    def _planned(self, own: Projected, seen: SeenView):
+    def _planned(self, own: Projected, frozen: Projected | None, camera: Camera):
         """The projections of all gaussians of a view, and their plan."""
-        projected = join_columns(host(own) if plans_on_host(own, self.raster) else own, seen.frozen)
-        camera = seen.target.camera
+        parts = [own, frozen]
+        projected = join_columns(*(map(host, parts) if plans_on_host(own, self.raster) else parts))
         return projected, plan_with(projected, camera.width, camera.height, self.raster, self.capacity)
 
 

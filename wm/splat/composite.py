@@ -22,12 +22,14 @@ import math
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+import numpy as np
+from jaxtyping import Array, Bool, Float
 
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.splat import _loops
 from wm.splat._axes import has_slope
+from wm.splat._blocks import in_blocks
 from wm.splat._pairs import DEPTH, GEOMETRY, Composite
 from wm.splat._tile_sums import offsets
 from wm.splat.project import DEFAULTS, Projected
@@ -42,6 +44,7 @@ def rasterize(
     height: int,
     settings: RasterSettings = DEFAULTS,
     background: Background | None = None,
+    frozen: Projected | None = None,
 ) -> Render:
     """The image of projected gaussians; pure, jittable, differentiable in `projected` and `background`.
 
@@ -51,12 +54,14 @@ def rasterize(
         width, height: of the image, pixels.
         settings: alpha_min, alpha_max, transmittance_min, tile, chunk, depth, slanted and compositor are read here.
         background: colour behind everything; None is black.
+        frozen: more gaussians, after those of `projected` in the plan's numbering; no derivative by them.
 
     Returns:
         The image, float32 even where float64 is enabled. With `settings.depth` False its depth is 0 everywhere and costs nothing.
     """
     plan = jax.tree.map(jnp.asarray, plan)
-    composite = _composite(_table(projected, settings), plan, -(-width // settings.tile), settings)
+    projected, frozen = jax.tree.map(lambda x: jnp.asarray(x, jnp.float32), (projected, frozen))
+    composite = _composite(_table(projected, frozen, settings), plan, -(-width // settings.tile), settings)
     image = functools.partial(_image, plan=plan, width=width, height=height, tile=settings.tile)
     t = image(composite.transmittance)
     rgb = jnp.stack([image(composite.features[:, j]) for j in range(3)], -1)
@@ -66,8 +71,21 @@ def rasterize(
     return Render(rgb=rgb, depth=depth, alpha=1 - t)
 
 
-def _table(projected: Projected, settings: RasterSettings) -> Float[Array, "rows columns"]:
-    """One row a gaussian, and a last row of zero opacity at which the padding of a plan points."""
+@functools.partial(jax.custom_vjp, nondiff_argnums=(2,))
+def _table(projected: Projected, frozen: Projected | None, settings: RasterSettings) -> Float[Array, "rows columns"]:
+    """One row a gaussian, and a last row of zero opacity at which the padding of a plan points. No derivative by `frozen`."""
+    parts = [part for part in (projected, frozen) if part is not None]
+    starts = np.cumsum([0, *(part.opacity.shape[0] for part in parts)])
+    width = GEOMETRY + 3 + settings.depth + 2 * has_slope(settings)
+    rows = jnp.broadcast_to(jnp.zeros(width, jnp.float32).at[GEOMETRY - 1].set(-jnp.inf), (int(starts[-1]) + 1, width))
+    for part, start in zip(parts, starts):
+        rows = in_blocks(
+            functools.partial(_rows, settings=settings), _any_visible, [part], [-1], out_axis=0, into=rows, at=int(start)
+        )
+    return rows
+
+
+def _rows(projected: Projected, settings: RasterSettings) -> Float[Array, "n columns"]:
     culled = projected.opacity <= 0
     log_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
     features = [projected.color]
@@ -75,10 +93,26 @@ def _table(projected: Projected, settings: RasterSettings) -> Float[Array, "rows
         features.append(projected.depth[None])
     if has_slope(settings):
         features.append(projected.slope)
-    columns = jnp.concatenate(
-        [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log_opacity[None], *features]
-    )
-    return jnp.pad(columns.T, ((0, 1), (0, 0)), constant_values=0.0).at[-1, GEOMETRY - 1].set(-jnp.inf)
+    columns = [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log_opacity[None], *features]
+    return jnp.concatenate(columns).T
+
+
+def _any_visible(projected: Projected, *_) -> Bool[Array, ""]:
+    return (projected.opacity > 0).any()
+
+
+def _table_fwd(projected: Projected, frozen: Projected | None, settings: RasterSettings):
+    return _table(projected, frozen, settings), projected
+
+
+def _table_bwd(settings: RasterSettings, projected: Projected, cotangent):
+    def pull(projected: Projected, cotangent) -> Projected:
+        return jax.vjp(functools.partial(_rows, settings=settings), projected)[1](cotangent)[0]
+
+    return in_blocks(pull, _any_visible, [projected, cotangent], [-1, 0], out_axis=-1), None
+
+
+_table.defvjp(_table_fwd, _table_bwd)
 
 
 def _depth(features: Float[Array, "lanes features pixels"], settings: RasterSettings) -> Float[Array, "lanes pixels"]:

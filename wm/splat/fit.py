@@ -135,7 +135,7 @@ def see_views(
     ]
     seen = [join_columns(*sets) if sets else None for sets in parts]
     columns = columns_for(max((part.opacity.shape[-1] for part in seen if part is not None), default=0))
-    padded = [pad_columns(part, columns) if columns else None for part in seen]
+    padded = [jax.device_put(pad_columns(part, columns), device) if columns else None for part in seen]
     return [SeenView(target=target, frozen=part) for target, part in zip(targets, padded)]
 
 

@@ -25,5 +25,8 @@ def photometric_terms(
 
 
 def depth_loss(depth: Float[Array, "h w"], scaffold_depth: Float[Array, "h w"], mask: Bool[Array, "h w"]) -> Float[Array, ""]:
-    """Mean |depth - scaffold_depth| in metres over the pixels of the mask where the scaffold is hit (its depth is above 0)."""
-    return masked_mean(jnp.abs(depth - scaffold_depth), mask & (scaffold_depth > 0))
+    """Mean |depth - scaffold_depth| in metres over the pixels of the mask where the scaffold is hit (its depth is above 0).
+
+    A scaffold's depth of NaN counts, so that the loss tells of it.
+    """
+    return masked_mean(jnp.abs(depth - scaffold_depth), mask & ~(scaffold_depth <= 0))

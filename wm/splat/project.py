@@ -26,6 +26,7 @@ from jaxtyping import Array, Bool, Float
 from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
 from wm.splat._axes import clamped, compensation, cross, depth_slope, dot, has_slope, rotations
+from wm.splat._blocks import in_blocks
 from wm.splat._pose import from_centre, to_camera
 from wm.splat._pullback import pull_ellipses
 from wm.splat.checks import DEGREES, check_types
@@ -86,7 +87,7 @@ def pull_gaussians(
         projected: what it returned.
         cotangent: by its leaves; that of the extent is ignored.
     """
-    return _project_bwd(settings, (gaussians, camera, projected.opacity > 0), cotangent)[0]
+    return _pull_gaussians(gaussians, camera, projected.opacity > 0, cotangent, settings)
 
 
 @functools.partial(jax.custom_vjp, nondiff_argnums=(2,))
@@ -95,39 +96,58 @@ def _project(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> 
 
 
 def _project_fwd(gaussians: Gaussians, camera: Camera, settings: RasterSettings):
-    raw, covariance = _ellipses(_rows(gaussians), camera, settings)
-    visible = _is_visible(raw, covariance, settings)
-    # alpha falls to alpha_min on the ellipse d^T Sigma^-1 d = 2 ln(o / alpha_min), whose bounding box is radius * sqrt(diagonal)
-    ratio = jnp.where(visible, raw.opacity, settings.alpha_min) / settings.alpha_min
-    extent = jnp.sqrt(2 * jnp.log(ratio) * jnp.where(visible, covariance, 0.0))
-    shown = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), raw)
-    return dataclasses.replace(shown, extent=extent), (gaussians, camera, visible)
+    def shown(gaussians: Gaussians) -> Projected:
+        raw, covariance = _ellipses(_rows(gaussians), camera, settings)
+        visible = _is_visible(raw, covariance, settings)
+        # alpha falls to alpha_min on the ellipse d^T Sigma^-1 d = 2 ln(o / alpha_min), whose box is radius * sqrt(diagonal)
+        ratio = jnp.where(visible, raw.opacity, settings.alpha_min) / settings.alpha_min
+        extent = jnp.sqrt(2 * jnp.log(ratio) * jnp.where(visible, covariance, 0.0))
+        return dataclasses.replace(jax.tree.map(lambda x: jnp.where(visible, x, 0.0), raw), extent=extent)
+
+    def opaque(gaussians: Gaussians) -> Bool[Array, ""]:
+        return (jnp.exp(gaussians.opacity_logits) >= settings.alpha_min).any()  # more than the opacity, so nothing is missed
+
+    projected = in_blocks(shown, opaque, [gaussians], [0], out_axis=-1)
+    return projected, (gaussians, camera, projected.opacity > 0)
 
 
 def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
-    # Culled gaussians are replaced by one that is safe to differentiate before the pass is run again: a NaN of theirs would
-    # reach the camera's gradient, which sums over all.
     gaussians, camera, visible = residuals
-    rows = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), _rows(gaussians))
-    no_extent = dataclasses.replace(cotangent, extent=jnp.zeros((2, 1), jnp.float32))
-    masked = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), no_extent)
-
-    means, quats, log_scales, opacity_logits, sh = rows
-    by_means, by_quats, by_scales, by_logits = pull_ellipses(
-        means, quats, log_scales, opacity_logits, camera, settings, visible, masked
-    )
-    _, pull_colors = jax.vjp(lambda sh, means: _colors(sh, means, camera.T_cam_world), sh, means)
-    by_sh, by_direction = pull_colors(masked.color)
-    by_gaussians = Gaussians(
-        means=jnp.stack([shift + turn for shift, turn in zip(by_means, by_direction)], 1),
-        quats=jnp.stack(by_quats, 1),
-        log_scales=jnp.stack(by_scales, 1),
-        opacity_logits=by_logits,
-        sh=jnp.stack([band.T for band in by_sh], 1),
-    )
     # by the camera there are few numbers and many sums: the plain derivative, compiled only where somebody asks for it
+    rows, masked = _visible_rows(gaussians, visible, cotangent)
     _, pull_camera = jax.vjp(lambda camera: _ellipses(rows, camera, settings, visible)[0], camera)
-    return by_gaussians, pull_camera(masked)[0]
+    return _pull_gaussians(gaussians, camera, visible, cotangent, settings), pull_camera(masked)[0]
+
+
+def _pull_gaussians(gaussians: Gaussians, camera: Camera, visible, cotangent: Projected, settings: RasterSettings) -> Gaussians:
+    def pull(gaussians: Gaussians, visible, cotangent: Projected) -> Gaussians:
+        rows, masked = _visible_rows(gaussians, visible, cotangent)
+        means, quats, log_scales, opacity_logits, sh = rows
+        by_means, by_quats, by_scales, by_logits = pull_ellipses(
+            means, quats, log_scales, opacity_logits, camera, settings, visible, masked
+        )
+        _, pull_colors = jax.vjp(lambda sh, means: _colors(sh, means, camera.T_cam_world), sh, means)
+        by_sh, by_direction = pull_colors(masked.color)
+        return Gaussians(
+            means=jnp.stack([shift + turn for shift, turn in zip(by_means, by_direction)], 1),
+            quats=jnp.stack(by_quats, 1),
+            log_scales=jnp.stack(by_scales, 1),
+            opacity_logits=by_logits,
+            sh=jnp.stack([band.T for band in by_sh], 1),
+        )
+
+    return in_blocks(pull, lambda _, visible, __: visible.any(), [gaussians, visible, cotangent], [0, 0, -1], out_axis=0)
+
+
+def _visible_rows(gaussians: Gaussians, visible, cotangent: Projected):
+    """Rows of the gaussians and their cotangents without the extent's, zero where culled.
+
+    So culled gaussians are replaced by one that is safe to differentiate before the pass is run again: a NaN of theirs would
+    reach the camera's gradient, which sums over all.
+    """
+    rows = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), _rows(gaussians))
+    no_extent = dataclasses.replace(cotangent, extent=jnp.zeros_like(cotangent.extent))
+    return rows, jax.tree.map(lambda x: jnp.where(visible, x, 0.0), no_extent)
 
 
 _project.defvjp(_project_fwd, _project_bwd)

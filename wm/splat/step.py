@@ -18,7 +18,6 @@ from wm.schema import FitSettings, RasterSettings
 from wm.splat._wide import WIDE
 from wm.splat.composite import rasterize
 from wm.splat.exposure import expose
-from wm.splat.frozen import join_columns
 from wm.splat.losses import depth_loss, photometric_terms
 from wm.splat.normal_loss import normal_loss
 from wm.splat.project import Projected, project, pull_gaussians
@@ -171,7 +170,7 @@ def view_gradient(
     camera = target.camera
 
     def objective(own: Projected, exposure):
-        render = rasterize(join_columns(own, frozen), plan, camera.width, camera.height, raster)
+        render = rasterize(own, plan, camera.width, camera.height, raster, frozen=frozen)
         rgb = render.rgb if exposure is None else expose(render.rgb, exposure)
         l1, dissimilarity = photometric_terms(rgb, target.rgb.astype(jnp.float32) / 255, target.mask)
         depth = depth_loss(render.depth, target.depth, target.mask) if raster.depth else jnp.float32(0)

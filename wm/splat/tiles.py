@@ -62,9 +62,7 @@ def plan_tiles(
         for x in (projected.mean2d, projected.root, projected.opacity, projected.depth, projected.extent)
     )
     columns, rows = -(-width // settings.tile), -(-height // settings.tile)
-    reach = extent + slack(mean, extent, np)
-    shown = (extent > 0) & (mean + reach > 0) & (mean - reach < np.array([[width], [height]], np.float32))
-    order = _front_to_back(depth, np.flatnonzero(shown.all(0) & (opacity > 0)))
+    order = _front_to_back(depth, _shown(mean, extent, opacity, width, height))
     mean, root, opacity, extent = (np.take(x, order, axis=-1) for x in (mean, root, opacity, extent))
     gaussian, row = _rows_touched(mean[1], extent[1], height, settings.tile)
     terms = chord_terms(mean, root, opacity, extent, settings, np)
@@ -105,6 +103,15 @@ def padded_capacity(entries: int, wanted: int | None) -> int:
     while size < entries:
         size = math.ceil(size * GROWTH)
     return size
+
+
+def _shown(mean, extent, opacity, width: int, height: int):
+    """Indices of the ellipses that reach into the image."""
+    visible = np.flatnonzero(opacity > 0)
+    mean, extent = (np.take(x, visible, axis=-1) for x in (mean, extent))
+    reach = extent + slack(mean, extent, np)
+    shown = (extent > 0) & (mean + reach > 0) & (mean - reach < np.array([[width], [height]], np.float32))
+    return visible[shown.all(0)]
 
 
 def _front_to_back(depth, visible):
