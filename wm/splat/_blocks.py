@@ -27,22 +27,28 @@ def in_blocks(
         at: the place there of the first of them.
     """
     n = jax.tree.leaves(args[0])[0].shape[axes[0]]
-    if into is None:
-        firsts = [jax.tree.map(functools.partial(_take, 0, n, axis), arg) for arg, axis in zip(args, axes)]
-        into = jax.tree.map(lambda x: jnp.zeros(x.shape, x.dtype), jax.eval_shape(f, *firsts))
 
-    def blocks(into, *args, size: int):
+    def take(first, size: int) -> list:
+        return [jax.tree.map(functools.partial(_take, first, size, axis), arg) for arg, axis in zip(args, axes)]
+
+    def put(first, results, into):
+        return jax.tree.map(functools.partial(_put, first, out_axis), into, results)
+
+    def at_once(into):
+        return put(at, f(*take(0, n)), into)
+
+    def by_blocks(into):
         def one(k, into):
-            first = jnp.minimum(k * size, n - size)  # the last block begins early: some of its gaussians are done twice
-            block = [jax.tree.map(functools.partial(_take, first, size, axis), arg) for arg, axis in zip(args, axes)]
-            before = jax.tree.map(functools.partial(_take, at + first, size, out_axis), into)
+            first = jnp.minimum(k * BLOCK, n - BLOCK)  # the last block begins early: some of its gaussians are done twice
+            block, before = take(first, BLOCK), jax.tree.map(functools.partial(_take, at + first, BLOCK, out_axis), into)
             after = jax.lax.cond(alive(*block), lambda _, *block: f(*block), lambda before, *_: before, before, *block)
-            return jax.tree.map(functools.partial(_put, at + first, out_axis), into, after)
+            return put(at + first, after, into)
 
-        return jax.lax.fori_loop(0, -(-n // size), one, into) if n else into
+        return jax.lax.fori_loop(0, -(-n // BLOCK), one, into)
 
-    by_platform = {"cpu": functools.partial(blocks, size=min(BLOCK, n)), "default": functools.partial(blocks, size=n)}
-    return jax.lax.platform_dependent(into, *args, **by_platform)
+    if into is None:
+        into = jax.tree.map(lambda x: jnp.zeros(x.shape, x.dtype), jax.eval_shape(lambda: f(*take(0, n))))
+    return jax.lax.platform_dependent(into, cpu=by_blocks if n > BLOCK else at_once, default=at_once)
 
 
 def _take(first, size: int, axis: int, x):
