@@ -32,7 +32,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     """
     rng = np.random.default_rng(np.random.SeedSequence([seed, room, 4]))
     layout = Layout(site)
-    if not layout.standing.any():
+    if not layout.floor.standing.any():
         return []
     narrow = 2 * float(shapely.maximum_inscribed_circle(site.polygon, tolerance=0.02).length) < NARROW
     kind = "corridor" if narrow and kind in ("hall", "gallery", "living", "other") else kind
