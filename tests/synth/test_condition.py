@@ -91,7 +91,7 @@ def test_depth_only_is_depth_only():
     gbuffer = cast(bare, camera)
     x = make_condition(gbuffer, camera, atlas, bare, (), RANGE, ConditionConfig(objects="none", wall_texture=False))
     np.testing.assert_array_equal(x.rgb, np.repeat(depth_grey(gbuffer, RANGE)[..., None], 3, -1))
-    assert x.known.max() == 0
+    assert x.known.max() == 0 and not x.wall_texture
 
 
 def test_nearer_is_brighter_over_one_range():

@@ -37,6 +37,7 @@ class Condition:
     depth: np.ndarray  # [h, w] float32 z-depth of the conditioning scaffold, metres, 0 where nothing is hit
     objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none; so that a box is not taken for a crate
     object: np.ndarray | None = None  # [h, w] bool: where the scaffold has an object, boxes included; None for nowhere
+    wall_texture: bool = True  # whether the scaffold shows texture where views have left some: what one view decides, others see
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -64,7 +64,9 @@ def make_condition(
             known[shown] = 1.0
         else:
             rgb[shown] = light * np.float32(BOX_COLOR)
-    return Condition(rgb=rgb, known=known, depth=gbuffer.depth, objects=settings.objects, object=shown)
+    return Condition(
+        rgb=rgb, known=known, depth=gbuffer.depth, objects=settings.objects, object=shown, wall_texture=settings.wall_texture
+    )
 
 
 def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.ndarray, "h w"]:

@@ -8,11 +8,12 @@ import pytest
 
 from tests.synth.objects.scenes import STYLE, piece, sightings, site
 from wm.geometry.upright import levelled, to_world, transformed, turn_between
-from wm.geometry.upright_box import box_iou, box_of
+from wm.geometry.upright_box import UprightBox, box_iou, box_of
 from wm.synth.backends import ReconstructionBackend
 from wm.synth.objects.coloring import unlit
-from wm.synth.objects.kinds import kind_of
-from wm.synth.objects.reconstruction import TemplateReconstruction
+from wm.synth.objects.kinds import kind_of, template_of, templates_of
+from wm.synth.objects.reconstruction import TemplateReconstruction, built
+from wm.synth.procedural.inventory import lamp_sorts, with_lamp
 
 BACKEND = TemplateReconstruction(STYLE)
 
@@ -44,6 +45,22 @@ def test_boxes_are_near_the_truth(thing, least):
     assert made.thing.support == thing.support and made.residual < 0.03
     if thing.label in ("sofa", "armchair", "bookshelf"):
         assert abs(turn_between(box_of(thing).yaw, box_of(levelled(made.thing)).yaw)) < math.radians(12)
+
+
+@pytest.mark.parametrize("kind", ["pendant lamp", "floor lamp"])
+@pytest.mark.parametrize("sort", lamp_sorts(STYLE))
+def test_a_lamp_is_rebuilt_as_the_sort_that_fits_what_is_seen(kind, sort):
+    """Which sort a room has is not told: the shape decides, if some image shows it larger than a dozen pixels across."""
+    size, z = {"pendant lamp": ((0.42, 0.42, 0.72), 1.878), "floor lamp": ((0.42, 0.42, 1.6), 0.002)}[kind]
+    true = template_of(kind, with_lamp(STYLE, sort))
+    thing = built(kind, true, UprightBox(1.6, 1.2, z, 0.0, *size), 0, seed=11)
+    others = [template.piece.faces.shape for template in templates_of(kind, STYLE)]
+    assert true.piece.faces.shape in others and len(set(others)) == len(others)
+    assert lifted(thing).thing.faces.shape == true.piece.faces.shape
+
+
+def test_what_is_no_lamp_has_one_template():
+    assert all(len(templates_of(kind, STYLE)) == 1 for kind in ("sofa", "plant", "picture", "bathtub"))
 
 
 def test_what_one_image_hides_is_completed_by_what_is_usual():

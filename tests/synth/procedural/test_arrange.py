@@ -19,6 +19,10 @@ from wm.synth.procedural.style import style_of
 TYPES = tuple(PROGRAMME)
 THEMES = ("gothic mansion", "scandinavian flat", "beach house", "roman villa", "surreal dream", "cyberpunk")
 ROOMS = 42
+BEACH = "airy modern beach house with whitewashed boards, linen and driftwood"
+CLOCKWORK = "clockwork garden pavilion of brass and moss"
+ONCE_CLOSED_OFF = [("gothic mansion", 21), ("gothic mansion", 13), (BEACH, 6), (BEACH, 33), (BEACH, 37), (CLOCKWORK, 54)]
+"""Rooms in which an arrangement that looked at its own grid alone closed off a strip between two pieces, on some grid."""
 NAVIGATION = NavigationSettings()
 
 
@@ -65,6 +69,11 @@ def test_laws_of_a_room_full_of_clockwork(k):
     check_laws(*room(k, "clockwork garden"))
 
 
+@pytest.mark.parametrize(("theme", "k"), ONCE_CLOSED_OFF)
+def test_laws_of_a_room_that_once_broke_one(theme, k):
+    check_laws(*room(k, theme))
+
+
 def check_laws(site, placed):
     solids = [trunk(p) for p in placed]
     roomy = site.polygon.buffer(0.001)
@@ -98,13 +107,20 @@ def check_laws(site, placed):
 
 def check_walkable(site, placed, solids):
     """On the grid of navigation a body of 0.25 m radius reaches every door from every other, and no part of the floor is closed
-    off to it: what it cannot reach is less than half a square metre of places for its middle, and 5 % of them."""
-    low = np.array(site.polygon.bounds[:2])
-    columns, rows = (int(n) for n in np.ceil((np.array(site.polygon.bounds[2:]) - low) / NAVIGATION.cell))
+    off to it: what it cannot reach is less than half a square metre of places for its middle, and 5 % of them. A house's grid
+    starts where it likes: so too on that grid half a cell to either side."""
     walkable = site.polygon.buffer(-NAVIGATION.body_radius)
     in_the_way = [hull for p, (hull, low, _) in zip(placed, solids) if p.piece.support == "floor" and low < 1.8]
     blocked = shapely.union_all(in_the_way).buffer(NAVIGATION.body_radius)
-    bare, free = (cells_inside(area, low, NAVIGATION.cell, (rows, columns)) for area in (walkable, walkable.difference(blocked)))
+    corner = np.array(site.polygon.bounds[:2])
+    for shift in np.ndindex(2, 2):
+        check_walkable_on(corner - 0.5 * NAVIGATION.cell * np.array(shift), site, walkable, walkable.difference(blocked))
+
+
+def check_walkable_on(low, site, walkable, unblocked):
+    """The same on the grid that starts at one point."""
+    columns, rows = (int(n) for n in np.ceil((np.array(site.polygon.bounds[2:]) - low) / NAVIGATION.cell))
+    bare, free = (cells_inside(area, low, NAVIGATION.cell, (rows, columns)) for area in (walkable, unblocked))
     labels, _ = ndimage.label(free)
     sizes = np.bincount(labels.ravel())[1:]
     if not len(sizes) or ndimage.label(bare)[1] > 1:

@@ -5,8 +5,9 @@ Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it 
     out = W + known * lowpass(X - W) + (1 - known) * drift.
 - Objects that X shows textured are the scene's; a grey box is filled with other furniture; where X shows no objects, the room is
   furnished in some other way.
-- Walls, floor and ceiling are finished as the scene's where X shows any of their texture, and in a room's bootstrap views, which
-  settle how it looks; otherwise in some other way that the theme allows.
+- Walls, floor and ceiling are finished as the scene's where X shows any of their texture; otherwise in some other way that the
+  theme allows. Someone has to begin: where the scaffold hands texture on, a room's bootstrap views settle how it is finished, and
+  that finish is the scene's. Where it hands none on nobody would see what they settled, and they invent as every other view does.
 - Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
   while the world's fine detail is restored.
 Imperfections (wm.synth.image.imperfections) and violations of the structure (wm.synth.image.violations) come on top, at the
@@ -121,9 +122,9 @@ class ProceduralImages:
         if count == 0:
             return SCENE
         first = np.random.default_rng(_stream(request.seed, 0x1DEA)).permutation(count) + 1
-        settled = request.view.kind == "bootstrap"
-        surfaces = 0 if settled or _recognised(condition) else int(first[0])
-        if condition.objects == "textured" or (condition.objects == "none" and settled):
+        settles = condition.wall_texture and request.view.kind == "bootstrap"
+        surfaces = 0 if settles or _recognised(condition) else int(first[0])
+        if condition.objects == "textured":
             which = Imagination(surfaces=surfaces)
         elif condition.objects == "boxes":
             which = Imagination(surfaces=surfaces, furniture=int(first[0]), boxed=True)

@@ -9,6 +9,7 @@ from jaxtyping import Float
 from wm.geometry.support import words_of
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture import KINDS, Piece, make_piece
+from wm.synth.procedural.inventory import lamp_sorts, with_lamp
 
 _OTHER_WORDS = {
     "couch": "sofa", "settee": "sofa", "loveseat": "sofa", "carpet": "rug", "painting": "picture", "poster": "picture",
@@ -77,6 +78,16 @@ def template_of(kind: str, style: Style) -> Template:
     pieces = [make_piece(kind, style, np.random.default_rng(0), size=_size(at)) for at in (low, (low + high) / 2, high)]
     sizes = np.stack([piece.size for piece in pieces])
     return Template(kind=kind, style=style, support=entry.support, piece=pieces[1], low=sizes.min(axis=0), high=sizes.max(axis=0))
+
+
+@functools.lru_cache(maxsize=512)
+def templates_of(kind: str, style: Style) -> tuple[Template, ...]:
+    """A kind's templates in a style: one, but of lamps one for each shape that the sorts of lamp in the style's houses have."""
+    by_shape: dict[bytes, Template] = {}
+    for sort in lamp_sorts(style):
+        template = template_of(kind, with_lamp(style, sort))
+        by_shape.setdefault(template.piece.vertices.tobytes(), template)
+    return tuple(by_shape.values())
 
 
 def _size(size: np.ndarray) -> tuple[float, float, float]:

@@ -19,7 +19,7 @@ from wm.geometry.upright import transformed
 from wm.geometry.upright_box import UprightBox
 from wm.synth.backends import Reconstruction, Sighting
 from wm.synth.objects.coloring import slot_colors
-from wm.synth.objects.kinds import Template, kind_of, largest_size, rebuilt, template_of
+from wm.synth.objects.kinds import Template, kind_of, largest_size, rebuilt, templates_of
 from wm.synth.objects.sightings import near_together, sighting_points, trimmed
 from wm.synth.objects.template_cost import evidence_of
 from wm.synth.objects.template_fit import fit_template
@@ -59,9 +59,9 @@ class TemplateReconstruction:
         points = near_together(points, largest_size(kind_of(label)))
         if len(points) < _LEAST:
             return None
-        template = template_of(kind_of(label), self.style)
-        evidence = evidence_of(template, points, sightings, site)
-        fit = fit_template(evidence)
+        templates = templates_of(kind_of(label), self.style)
+        fits = [fit_template(evidence_of(template, points, sightings, site)) for template in templates]
+        template, fit = min(zip(templates, fits, strict=True), key=lambda pair: pair[1].cost)
         if not _plausible(fit.box, template, site):
             return None
         thing = built(label, template, fit.box, room, seed=seed)

@@ -55,6 +55,7 @@ class Fit:
     """What a template came to."""
 
     box: UprightBox
+    cost: float  # half the sum of squared residuals
     residual: float  # metres between the points seen and the template, median
 
 
@@ -64,8 +65,9 @@ def fit_template(evidence: Evidence) -> Fit:
     best = boxes[[int(np.argmin(costs))]]
     anew = dataclasses.replace(evidence, surface=surface_of(rebuilt(evidence.template, best[0, 4:])))
     ends = [(*_refined(best, way, _STEPS), way) for way in (evidence, anew)]
-    boxes, _, way = min(ends, key=lambda end: float(end[1][0]))
-    return Fit(UprightBox(*boxes[0].tolist()), float(np.median(seen_distances(boxes, way, nearest(boxes, way)))))
+    boxes, costs, way = min(ends, key=lambda end: float(end[1][0]))
+    residual = float(np.median(seen_distances(boxes, way, nearest(boxes, way))))
+    return Fit(UprightBox(*boxes[0].tolist()), cost=float(costs[0]), residual=residual)
 
 
 def _best_guesses(evidence: Evidence) -> np.ndarray:

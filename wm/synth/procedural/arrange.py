@@ -3,7 +3,6 @@
 The dice are np.random.SeedSequence([seed, room index, 4]); two seeds never give the same room, one seed always does.
 """
 
-import dataclasses
 import math
 
 import numpy as np
@@ -13,7 +12,17 @@ from wm.geometry.site import Site
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.groups import middle_piece
 from wm.synth.procedural.hangings import curtain_pairs, hang, on_wall, wall_piece
-from wm.synth.procedural.inventory import ABSENT, AT_WALL, CORNERS, FLAVOUR, LAMPS, ONCE, OVER_FURNITURE, WALL_FEATURES
+from wm.synth.procedural.inventory import (
+    ABSENT,
+    AT_WALL,
+    CORNERS,
+    FLAVOUR,
+    ONCE,
+    OVER_FURNITURE,
+    WALL_FEATURES,
+    lamp_sorts,
+    with_lamp,
+)
 from wm.synth.procedural.job import Job
 from wm.synth.procedural.layout import Layout, Placed
 from wm.synth.procedural.programmes import PROGRAMME
@@ -32,7 +41,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     """
     rng = np.random.default_rng(np.random.SeedSequence([seed, room, 4]))
     layout = Layout(site)
-    if not layout.standing.any():
+    if not layout.floor.standing.any():
         return []
     narrow = 2 * float(shapely.maximum_inscribed_circle(site.polygon, tolerance=0.02).length) < NARROW
     kind = "corridor" if narrow and kind in ("hall", "gallery", "living", "other") else kind
@@ -55,10 +64,9 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
 
 def lamped(style: Style, kind: str, seed: int) -> Style:
     """The style with the sort of lamp that rooms of a kind have in this house."""
-    table = LAMPS.get(style.family, {"": (style.form.lamp,)})
-    sorts = table.get(kind, table[""])
+    sorts = lamp_sorts(style, kind)
     pick = np.random.default_rng(np.random.SeedSequence([seed, list(PROGRAMME).index(kind), 5])).integers(len(sorts))
-    return dataclasses.replace(style, form=dataclasses.replace(style.form, lamp=sorts[int(pick)]))
+    return with_lamp(style, sorts[int(pick)])
 
 
 def wanted(site: Site, kind: str, density: float) -> int:

@@ -144,6 +144,6 @@ SLOTS: tuple[str, ...] = (
     "fabric", "fabric_accent", "velvet", "leather", "linen", "pillow", "blanket", "curtain", "rug", "rug_border", "woven",
     "metal", "dark_metal", "brass", "chrome", "stone", "marble", "tile", "ceramic", "glass", "mirror", "water",
     "paper", "book", "painting", "leaf", "flower", "soil", "terracotta", "wax",
-    "lamp_shade", "bulb", "flame", "ember", "screen", "appliance", "soot",
+    "lamp_shade", "bulb", "flame", "ember", "screen", "appliance", "soot", "foliage",
 )  # fmt: skip
 """Every slot a piece of furniture may name. `SceneObject.slots` may repeat a name with different colours (books)."""

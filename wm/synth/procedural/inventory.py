@@ -1,5 +1,9 @@
 """What a room of each type may hold beyond its functional groups, and what each style family owns or would not own."""
 
+import dataclasses
+
+from wm.synth.procedural.finish import Style
+
 AT_WALL: dict[str, tuple[str, ...]] = {
     "bedroom": ("wardrobe", "dresser", "armchair", "plant", "chest", "bookshelf", "floor lamp"),
     "living": ("bookshelf", "sideboard", "plant", "floor lamp", "console table", "bookshelf", "plant"),
@@ -108,3 +112,16 @@ CORNERS = frozenset(
      "giant mushroom", "folding screen", "topiary"}
 )  # fmt: skip
 """Pieces that like corners."""
+
+
+def lamp_sorts(style: Style, kind: str | None = None) -> tuple[str, ...]:
+    """What lamps may be in a type of room in a style, or in any of its rooms."""
+    table = LAMPS.get(style.family, {"": (style.form.lamp,)})
+    if kind is not None:
+        return table.get(kind, table[""])
+    return tuple(dict.fromkeys(sort for sorts in table.values() for sort in sorts))
+
+
+def with_lamp(style: Style, sort: str) -> Style:
+    """The style with lamps of one sort."""
+    return dataclasses.replace(style, form=dataclasses.replace(style.form, lamp=sort))

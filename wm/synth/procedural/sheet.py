@@ -172,4 +172,5 @@ def slot_finishes(sheet: Sheet) -> dict[str, Finish]:
         "screen": of("lacquer", rgb("14161a"), rgb("5a6a78"), roughness=0.1),
         "appliance": of("metal", rgb("d5d8d9"), white, scale=0.004, roughness=0.3),
         "soot": of("stone_tiles", rgb("2a2522"), rgb("1a1614"), scale=0.2, roughness=0.95),
+        "foliage": of("carpet", leaf, scaled(leaf, 0.1), scale=0.012),  # clipped: flecked as pile is
     }

@@ -5,7 +5,6 @@ import math
 import numpy as np
 
 from wm.synth.procedural.finish import Style
-from wm.synth.procedural.furniture.common import scaled
 from wm.synth.procedural.furniture.piece import Kind, Model, Part, Size, of, pick
 from wm.synth.procedural.furniture.storage import vessel
 from wm.synth.procedural.solids import Point3, Real, Solid, ball, box, closed, lathe, rod, shift, stretch, tube
@@ -172,7 +171,7 @@ def topiary(style: Style, rng: np.random.Generator, size: Size) -> Model:
             low = base + 0.05 + 0.85 * r
             crown.append(clipped((0, 0, low + share * (h - 0.55 * r - low)), r, rng, tall=0.75))
     parts += of("dark_wood", trunk)
-    return Model(parts + of("rug", *crown, color=scaled(style.slot("leaf").colors[0], 0.8)))  # flecked as pile is, and green
+    return Model(parts + of("foliage", *crown))
 
 
 def wall_ivy(style: Style, rng: np.random.Generator, size: Size) -> Model:
