@@ -23,6 +23,7 @@ from scipy.spatial import KDTree
 
 from wm.geometry.atlas import build_atlas, texel_charts, texel_positions
 from wm.geometry.chart_texture import chart_texture
+from wm.geometry.mesh import face_crosses
 from wm.geometry.raycast import build_ray_scene, cast
 from wm.geometry.texture import accumulate
 from wm.schema import TextureSettings
@@ -131,8 +132,10 @@ def _footprint(views: list[tuple[Sighting, GBuffer, np.ndarray]]) -> float:
 
 def _atlas(mesh: Mesh, surface: np.ndarray, texel: float) -> Atlas:
     """Texels of this size, or as small as the limit allows."""
+    area = float(np.linalg.norm(face_crosses(mesh.vertices[mesh.faces[surface >= 0]]), axis=1).sum()) / 2
+    texel = max(texel, np.sqrt(area / _TEXELS))
     atlas = build_atlas(mesh, texel, surface)
-    while len(atlas.inside) > _TEXELS:
+    while len(atlas.inside) > _TEXELS:  # charts are rectangles, and larger than what is on them
         texel *= 1.02 * np.sqrt(len(atlas.inside) / _TEXELS)
         atlas = build_atlas(mesh, texel, surface)
     return atlas
