@@ -94,8 +94,7 @@ def test_nothing_outside_the_mask_bleeds_in(seed):
     """Whatever is drawn outside the mask, the texture is the same to the byte."""
     thing, rng = board(), np.random.default_rng(seed)
     seen = sighting(thing, view())
-    x, y = rng.integers([40, 30], [120, 90])
-    mask = seen.mask & (np.arange(160) < x) & (np.arange(120)[:, None] < y)
+    mask = seen.mask & (np.arange(160) + rng.uniform(0.5, 2) * np.arange(120)[:, None] < rng.uniform(100, 200))
     one = textured(thing, [dataclasses.replace(seen, mask=mask)], SLOTS)
     noise = np.where(mask[..., None], seen.rgb, rng.random(seen.rgb.shape)).astype(np.float32)
     other = textured(thing, [dataclasses.replace(seen, mask=mask, rgb=noise)], SLOTS)
@@ -177,3 +176,24 @@ def test_slots_that_are_not_asked_for_have_no_texture():
     thing = board()
     assert textured(thing, [sighting(thing, view())], np.array([False])).texture is None
     assert textured(thing, [], SLOTS).texture is None
+
+
+def test_where_the_template_is_a_little_off_a_slot_does_not_smear_over_its_neighbour():
+    """A chest whose right end is of a green slot, drawn a pixel wider than the template has it."""
+    thing = board()
+    green = (0.1, 0.5, 0.1)
+    right = thing.vertices[thing.faces][..., 0].mean(axis=1) > 0.3
+    two = dataclasses.replace(
+        thing, face_slot=right.astype(np.int32), slots=("paint", "felt"), emission=np.zeros(2, np.float32),
+        slot_colors=np.array([PLAIN, green], np.float32),
+    )  # fmt: skip
+    camera = view((1.6, -1.6, 0.0))
+    gbuffer = cast(assemble_scene(EMPTY, [two]), camera)
+    slot = np.where(gbuffer.hit, two.face_slot[gbuffer.face], -1)
+    drawn = np.maximum(slot, 0)
+    drawn[:, :-1] = np.maximum(drawn[:, :-1], drawn[:, 1:])
+    rgb = two.slot_colors[drawn].astype(np.float32)
+    made = textured(two, [Sighting(camera=camera, rgb=rgb, depth=gbuffer.depth, mask=gbuffer.hit)], np.array([True, True]))
+    colors, _, hit = colors_at(made, camera)
+    expected = two.slot_colors[np.maximum(slot, 0)]
+    assert np.abs(colors - expected)[hit].max() < 0.03

@@ -35,7 +35,7 @@ _TEXELS = 1 << 17
 """Texels of one thing at most, seen or not: beyond, they are coarser than the image."""
 _FINEST = 2e-3
 """Metres between texels at least."""
-_ASIDE = 0.008
+_ASIDE = 0.003
 """Share of the image's width by which the outlines of slots may be off."""
 _SLOW = 0.1
 """Metres over which light changes; what changes faster is the surface."""
@@ -92,11 +92,12 @@ def _views(thing: SceneObject, mesh: Mesh, sightings: Sequence[Sighting]) -> lis
     """
     scene = build_ray_scene(mesh)
     views = []
-    for sighting in (_cut(sighting) for sighting in sightings if sighting.mask.any()):
+    for whole in (sighting for sighting in sightings if sighting.mask.any()):
+        sighting, aside = _cut(whole), max(1, round(_ASIDE * whole.camera.width))
         gbuffer = cast(scene, sighting.camera)
         agreed = np.abs(sighting.depth - gbuffer.depth) < 0.03 + 0.02 * gbuffer.depth
         inner = np.asarray(ndimage.binary_erosion(sighting.mask, np.ones((3, 3), bool)), bool)
-        shown = gbuffer.hit & agreed & inner & ~_of_another(thing, sighting, gbuffer)
+        shown = gbuffer.hit & agreed & inner & ~_of_another(thing, sighting, gbuffer, aside)
         views += [(sighting, gbuffer, shown)] if shown.any() else []
     return views
 
@@ -112,15 +113,14 @@ def _cut(sighting: Sighting) -> Sighting:
     return Sighting(camera=camera, rgb=sighting.rgb[window], depth=sighting.depth[window], mask=mask)
 
 
-def _of_another(thing: SceneObject, sighting: Sighting, gbuffer: GBuffer) -> np.ndarray:
-    """[h, w] pixels that have rather the colour of another slot, which lies a little aside."""
+def _of_another(thing: SceneObject, sighting: Sighting, gbuffer: GBuffer, aside: int) -> np.ndarray:
+    """[h, w] pixels that have rather the colour of another slot, which lies so many pixels aside."""
     colors = np.concatenate([thing.slot_colors, np.full((1, 3), np.inf, np.float32)])
     slot = np.append(thing.face_slot, np.int32(len(thing.slots)))[gbuffer.face]
     own = ((sighting.rgb - colors[slot]) ** 2).sum(axis=2)
-    reach = max(1, round(_ASIDE * 2 * float(sighting.camera.principal.max())))
     found = np.zeros(slot.shape, bool)
-    for y, x in itertools.product((-reach, 0, reach), repeat=2):
-        other = np.pad(slot, reach, mode="edge")[reach + y :, reach + x :][: slot.shape[0], : slot.shape[1]]
+    for y, x in itertools.product((0, aside, 2 * aside), repeat=2):
+        other = np.pad(slot, aside, mode="edge")[y:, x:][: slot.shape[0], : slot.shape[1]]
         found |= (other != slot) & (((sighting.rgb - colors[other]) ** 2).sum(axis=2) < own)
     return found
 
