@@ -1,6 +1,6 @@
 """How far the colours of lifted furniture are from those of the furniture that was drawn, with textures and without.
 
-python experiments/object_lifting/textures.py --rooms 4 --width 320
+python experiments/object_lifting/textures.py --rooms 3 --width 320
 
 Compared are colours of surfaces (albedo, sRGB), without light: of the true furniture the material's at the point, of the lifted
 one the texture's ("after") or the slot's ("before"). Points are those of pixels of the room's planned views, none of which the
@@ -126,7 +126,7 @@ def _row(name: str, points: Points) -> dict:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--rooms", type=int, default=4, help="one of each scene, then the next of each")
+    parser.add_argument("--rooms", type=int, default=3, help="one of each scene, then the next of each")
     parser.add_argument("--width", type=int, default=320, help="of the images that rooms are lifted from")
     parser.add_argument("--scenes", nargs="*", default=options("scene"))
     parser.add_argument("--out", type=Path, default=HERE)
