@@ -1,5 +1,6 @@
 """Round trips, and equal records give equal bytes."""
 
+import dataclasses
 import io
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from PIL import Image
 
 from wm import codecs
-from wm.types import Camera, SceneObject, View
+from wm.types import Camera, SceneObject, Texture, View
 
 
 @pytest.fixture
@@ -61,6 +62,17 @@ def test_objects_round_trip(rng):
         assert (before.label, before.slots, before.support, before.room) == (after.label, after.slots, after.support, after.room)
         for name in ("vertices", "faces", "face_slot", "slot_colors", "T_world_object", "size", "emission"):
             assert np.array_equal(getattr(before, name), getattr(after, name))
+
+
+def test_textures_round_trip_and_things_without_stay_without(rng):
+    image, corner_uv = rng.integers(0, 256, (4, 6, 3), dtype=np.uint8), rng.random((2, 3, 2)).astype(np.float32)
+    texture = Texture(image=image, corner_uv=corner_uv, slots=np.array([True, False]))
+    things = (_thing(rng, "rug"), dataclasses.replace(_thing(rng, "picture"), texture=texture))
+    plain, textured = codecs.decode_objects(codecs.encode_objects(things))
+    assert plain.texture is None and textured.texture is not None
+    for name in ("image", "corner_uv", "slots"):
+        assert np.array_equal(getattr(texture, name), getattr(textured.texture, name))
+        assert getattr(texture, name).dtype == getattr(textured.texture, name).dtype
 
 
 def test_no_objects_round_trip():

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Num, UInt8
 from PIL import Image
 
-from wm.types import Camera, SceneObject, View
+from wm.types import Camera, SceneObject, Texture, View
 
 DEPTH_UNIT = 1e-3
 """Metres per step of a 16-bit depth PNG, nerfstudio's `depth_unit_scale_factor`."""
@@ -78,10 +78,15 @@ def decode_arrays(data: bytes) -> dict[str, np.ndarray]:
 _OBJECT_ARRAYS = ("vertices", "faces", "face_slot", "slot_colors", "T_world_object", "size", "emission")
 
 
+_TEXTURE_ARRAYS = ("image", "corner_uv", "slots")
+
+
 def encode_objects(objects: Sequence[SceneObject]) -> bytes:
     """The furniture as an .npz: arrays by object, and a table of labels, rooms, supports and slots."""
     table = [{"label": o.label, "room": o.room, "support": o.support, "slots": list(o.slots)} for o in objects]
     arrays = {f"{k:05d}.{name}": getattr(o, name) for k, o in enumerate(objects) for name in _OBJECT_ARRAYS}
+    textures = [(k, o.texture) for k, o in enumerate(objects) if o.texture is not None]
+    arrays |= {f"{k:05d}.texture.{name}": getattr(texture, name) for k, texture in textures for name in _TEXTURE_ARRAYS}
     return encode_arrays({**arrays, "table": np.frombuffer(json.dumps(table).encode(), np.uint8)})
 
 
@@ -91,6 +96,8 @@ def decode_objects(data: bytes) -> tuple[SceneObject, ...]:
     objects = []
     for k, row in enumerate(table):
         fields: dict[str, Any] = {name: arrays[f"{k:05d}.{name}"] for name in _OBJECT_ARRAYS}
+        if f"{k:05d}.texture.image" in arrays:
+            fields["texture"] = Texture(**{name: arrays[f"{k:05d}.texture.{name}"] for name in _TEXTURE_ARRAYS})
         objects.append(SceneObject(**row | {"slots": tuple(row["slots"])}, **fields))
     return tuple(objects)
 

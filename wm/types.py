@@ -112,6 +112,16 @@ class View:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class Texture:
+    """Base colours over the faces of an object, on the host. They are tied to faces and not to places: wherever the object is
+    moved, and however it is pressed, they go along."""
+
+    image: np.ndarray  # [h, w, 3] uint8 sRGB
+    corner_uv: np.ndarray  # [f, 3, 2] float32 in [0, 1]: of each face's corners; (0, 0) is the first pixel's corner, v runs down
+    slots: np.ndarray  # [s] bool: slots whose faces look it up; the others have their slot's colour
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class SceneObject:
     """One separate thing in a room, as a closed or open triangle mesh in world space, on the host."""
 
@@ -126,6 +136,7 @@ class SceneObject:
     T_world_object: np.ndarray  # [4, 4] float64: object frame (x right, y back, z up, origin at the foot's centre) to world
     size: np.ndarray  # [3] float64 extent along the object's own axes, metres
     emission: np.ndarray  # [s] float32: how strongly each slot glows (0 for none)
+    texture: Texture | None = None  # colours finer than the slots', where images have shown them
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

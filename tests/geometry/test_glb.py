@@ -1,5 +1,6 @@
 """GLB files: read back by another library, and held to the parts of the specification that break viewers."""
 
+import dataclasses
 import io
 import json
 import struct
@@ -13,6 +14,7 @@ from PIL import Image
 
 from tests.geometry.test_mesh import wedge
 from wm.geometry import GlbNode, object_nodes, save_glb
+from wm.types import Texture
 
 
 def read(path) -> tuple[dict, bytes]:
@@ -45,7 +47,7 @@ def quad(**fields) -> GlbNode:
     uv = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], float)
     pixels = np.arange(4 * 8 * 3, dtype=np.uint8).reshape(4, 8, 3)
     base = {"name": "painting", "vertices": vertices, "faces": np.array([[0, 1, 2], [0, 2, 3]]), "uv": uv, "texture": pixels}
-    return GlbNode(**(base | fields))
+    return GlbNode(**(base | {"unlit": True} | fields))
 
 
 @given(st.integers(0, 10_000), st.integers(1, 6))
@@ -136,3 +138,20 @@ def test_broken_nodes_are_named_and_nothing_is_written(tmp_path, fields, message
     with pytest.raises(ValueError, match=f"'painting'.*{message}"):
         save_glb(tmp_path / "scene.glb", [quad(**fields)])
     assert not (tmp_path / "scene.glb").exists()
+
+
+def test_a_textured_object_is_lit_and_its_slots_share_one_image(tmp_path):
+    thing = wedge(0)
+    image = np.arange(4 * 8 * 3, dtype=np.uint8).reshape(4, 8, 3)
+    corner_uv = np.random.default_rng(0).random((len(thing.faces), 3, 2)).astype(np.float32)
+    textured = dataclasses.replace(thing, texture=Texture(image=image, corner_uv=corner_uv, slots=np.array([True, False])))
+    save_glb(tmp_path / "scene.glb", object_nodes([textured]))
+    document, binary = read(tmp_path / "scene.glb")
+    first, second = document["materials"]
+    assert len(document["images"]) == 1 and "KHR_materials_unlit" not in document.get("extensionsUsed", [])
+    assert first["pbrMetallicRoughness"]["baseColorTexture"] == {"index": 0}
+    assert "baseColorTexture" not in second["pbrMetallicRoughness"]
+    primitive = document["meshes"][0]["primitives"][0]
+    uv = accessor(document, binary, primitive["attributes"]["TEXCOORD_0"])
+    index = accessor(document, binary, primitive["indices"]).ravel()
+    np.testing.assert_array_equal(uv[index], corner_uv[thing.face_slot == 0].reshape(-1, 2))

@@ -17,6 +17,7 @@ from wm.geometry.structure import build_structure
 from wm.geometry.texture import accumulate
 from wm.schema import ConditionConfig
 from wm.synth.condition import depth_grey, make_condition
+from wm.types import Texture
 
 RANGE = (0.3, 9.0)
 RED, BLUE = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9)
@@ -112,3 +113,22 @@ def test_what_cannot_be_shown_is_refused():
         make_condition(gbuffer, camera, atlas, mesh, things, (2.0, 2.0))
     with pytest.raises(ValueError, match="not those of the mesh"):
         make_condition(gbuffer, camera, atlas, mesh, things[:1], RANGE)
+
+
+def test_textured_objects_show_their_texture():
+    """The chest's texture is half green, half yellow, by the columns of its image."""
+    mesh, things, camera, gbuffer, _, _ = scene()
+    image = np.zeros((2, 8, 3), np.uint8)
+    image[:, :4], image[:, 4:] = (0, 200, 0), (200, 200, 0)
+    corner_uv = np.full((len(things[0].faces), 3, 2), 0.2, np.float32)
+    corner_uv[6:] = 0.8
+    painted = dataclasses.replace(things[0], texture=Texture(image=image, corner_uv=corner_uv, slots=np.array([True])))
+    x = make_condition(gbuffer, camera, None, mesh, (painted, things[1]), RANGE)
+    plain = make_condition(gbuffer, camera, None, mesh, things, RANGE)
+    chest = gbuffer.hit & (mesh.face_object[gbuffer.face] == 0)
+    second = gbuffer.face - int((mesh.face_object < 0).sum()) >= 6
+    for part, color in ((chest & ~second, (0, 1, 0)), (chest & second, (1, 1, 0))):
+        assert part.any()
+        hue = x.rgb[part] / x.rgb[part].max(axis=1, keepdims=True)
+        np.testing.assert_allclose(hue, np.tile(color, (len(hue), 1)), atol=1e-5)
+    np.testing.assert_array_equal(x.rgb[~chest], plain.rgb[~chest])

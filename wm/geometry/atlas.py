@@ -15,20 +15,21 @@ from wm.types import Atlas, Mesh
 EDGE = 1e-6  # texels: a centre this close to a surface's edge is on it, so that faces that share an edge leave no gap
 
 
-def build_atlas(mesh: Mesh, texel_size: float) -> Atlas:
+def build_atlas(mesh: Mesh, texel_size: float, surface: Int[np.ndarray, "f"] | None = None) -> Atlas:
     """An empty atlas (no colour, no weight) over the structure of a mesh: walls, floors, ceilings, reveals and panes.
 
     Args:
       mesh: a scaffold; faces of objects and of the outer skin get no chart. The atlas may be read through G-buffers of this
         mesh, or of one that begins with its faces (a structure and the same structure with objects appended).
       texel_size: metres.
+      surface: other surfaces than the structure's (`planar_charts`).
 
     Raises:
       ValueError: the texel size is not a positive number.
     """
     if not (np.isfinite(texel_size) and texel_size > 0):
         raise ValueError(f"texel_size must be a positive number of metres, got {texel_size}")
-    face_chart = planar_charts(mesh)
+    face_chart = planar_charts(mesh, surface)
     faces = np.flatnonzero(face_chart >= 0)
     faces = faces[np.argsort(face_chart[faces], kind="stable")]
     chart = face_chart[faces]

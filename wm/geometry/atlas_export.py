@@ -9,6 +9,7 @@ from scipy.ndimage import distance_transform_edt
 
 from wm.geometry.atlas import chart_image
 from wm.geometry.glb import GlbNode
+from wm.geometry.packing import shelves
 from wm.types import Atlas, Mesh
 
 RIM = 2  # texels around every chart
@@ -31,7 +32,7 @@ def atlas_nodes(atlas: Atlas, mesh: Mesh) -> list[GlbNode]:
     nodes = []
     for room in np.unique(atlas.chart_room):
         charts = np.flatnonzero(atlas.chart_room == room)
-        corner, size = _pack(atlas.chart_shape[charts] + 2 * RIM)
+        corner, size = shelves(atlas.chart_shape[charts] + 2 * RIM)
         faces = np.flatnonzero(np.isin(face_chart, charts))
         place = np.zeros((len(atlas.chart_room), 2))
         place[charts] = corner + RIM
@@ -46,7 +47,8 @@ def atlas_nodes(atlas: Atlas, mesh: Mesh) -> list[GlbNode]:
         for (y, x), k in zip(corner, charts):
             image = np.pad(_filled(atlas, int(k)), ((RIM, RIM), (RIM, RIM), (0, 0)), mode="edge")
             texture[y : y + image.shape[0], x : x + image.shape[1]] = image
-        nodes.append(GlbNode(name=f"room {room}", vertices=vertices, faces=index.reshape(-1, 3), uv=uv, texture=texture))
+        faces = index.reshape(-1, 3)
+        nodes.append(GlbNode(name=f"room {room}", vertices=vertices, faces=faces, uv=uv, texture=texture, unlit=True))
     bare = mesh.faces[face_chart < 0]
     if len(bare):
         used, index = np.unique(bare, return_inverse=True)
@@ -65,18 +67,3 @@ def _filled(atlas: Atlas, chart: int) -> np.ndarray:
         distance_transform_edt(~known, return_distances=False, return_indices=True, indices=nearest)
         color = color[nearest[0], nearest[1]]
     return np.round(np.clip(color, 0, 1) * 255).astype(np.uint8)
-
-
-def _pack(shapes: np.ndarray) -> tuple[np.ndarray, tuple[int, int]]:
-    """Where rectangles [k, 2] (rows, columns) lie, [k, 2] (row, column) of their first texels, and the size of the whole."""
-    width = max(int(shapes[:, 1].max()), int(np.ceil(np.sqrt(shapes.prod(axis=1, dtype=np.int64).sum()))))
-    corner = np.zeros(shapes.shape, np.int64)
-    x = top = bottom = 0
-    for k in np.lexsort((-shapes[:, 1], -shapes[:, 0])):
-        rows, columns = shapes[k]
-        if x + columns > width:
-            x, top = 0, bottom
-        corner[k] = top, x
-        x += int(columns)
-        bottom = max(bottom, top + int(rows))
-    return corner, (int(bottom), width)

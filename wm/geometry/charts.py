@@ -1,7 +1,8 @@
 """Which faces of a scaffold lie on one planar surface: the charts of the texture atlas.
 
-A chart is a connected set of structure faces that share room, kind and plane. Faces of one plane that do not touch (the heads
-of several doors, a wall that a passage cuts in two) are separate charts, so that charts are not mostly empty.
+A chart is a connected set of faces of one surface and plane; of structure, surfaces are told apart by room and kind. Faces of one
+plane that do not touch (the heads of several doors, a wall that a passage cuts in two) are separate charts, so that charts are
+not mostly empty.
 """
 
 import numpy as np
@@ -18,18 +19,24 @@ OFFSET_TOLERANCE = 1e-3  # metres between offsets of one plane
 WELD = 1e-6  # metres: corners closer than this are one corner
 
 
-def planar_charts(mesh: Mesh) -> Int[np.ndarray, "f"]:
-    """The chart of every face, numbered in order of first face; -1 for objects, the outer skin and faces of no area."""
+def planar_charts(mesh: Mesh, surface: Int[np.ndarray, "f"] | None = None) -> Int[np.ndarray, "f"]:
+    """The chart of every face, numbered in order of first face; -1 for faces of no surface and faces of no area.
+
+    Args:
+      mesh: any triangles.
+      surface: a number for each face, -1 for none: faces of different numbers share no chart. Without it the structure's, by
+        room and kind, and none for objects and the outer skin.
+    """
+    surface = _structure(mesh) if surface is None else surface
     chart = np.full(len(mesh.faces), -1, np.int32)
     corners = mesh.vertices[mesh.faces]
     cross = face_crosses(corners)
     doubled_area = np.linalg.norm(cross, axis=1)
-    structure = (mesh.face_object == OUTSIDE) & (mesh.face_kind != SurfaceKind.OBJECT) & (mesh.face_kind != SurfaceKind.EXTERIOR)
-    faces = np.flatnonzero(structure & (doubled_area > 0))
+    faces = np.flatnonzero((surface >= 0) & (doubled_area > 0))
     if len(faces) == 0:
         return chart
     normal = cross[faces] / doubled_area[faces, None]
-    plane = _planes(mesh, faces, normal)
+    plane = _planes(mesh, faces, normal, surface[faces])
     label = _islands(mesh, faces, plane)
     _, first, inverse = np.unique(label, return_index=True, return_inverse=True)
     rank = np.empty(len(first), np.int32)
@@ -38,14 +45,18 @@ def planar_charts(mesh: Mesh) -> Int[np.ndarray, "f"]:
     return chart
 
 
-def _planes(mesh: Mesh, faces: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """A label per face, equal where room and kind are equal and the planes agree within the tolerances."""
+def _structure(mesh: Mesh) -> np.ndarray:
+    """[f] a number for each room and kind, -1 for objects and the outer skin."""
+    structure = (mesh.face_object == OUTSIDE) & (mesh.face_kind != SurfaceKind.OBJECT) & (mesh.face_kind != SurfaceKind.EXTERIOR)
+    return np.where(structure, (mesh.face_room - OUTSIDE) * len(SurfaceKind) + mesh.face_kind, -1)
+
+
+def _planes(mesh: Mesh, faces: np.ndarray, normal: np.ndarray, surface: np.ndarray) -> np.ndarray:
+    """A label per face, equal where surfaces are equal and the planes agree within the tolerances."""
     centre = mesh.vertices[mesh.faces[faces]].mean(axis=1)
     offset = np.einsum("fi,fi->f", centre - mesh.vertices.mean(axis=0), normal)
     # In units of the tolerances: labels 4 apart are never within radius 1.
-    key = np.column_stack(
-        [4.0 * mesh.face_room[faces], 4.0 * mesh.face_kind[faces], normal / ANGLE_TOLERANCE, offset / OFFSET_TOLERANCE]
-    )
+    key = np.column_stack([4.0 * surface, normal / ANGLE_TOLERANCE, offset / OFFSET_TOLERANCE])
     # Faces of one plane agree to rounding: joined here, so that the neighbour search sees planes and not faces.
     distinct, inverse = np.unique(np.round(key, 3), axis=0, return_inverse=True)
     pairs = KDTree(distinct).query_pairs(1.0, output_type="ndarray")

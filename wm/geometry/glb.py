@@ -2,8 +2,9 @@
 
 glTF is y-up and we are z-up: (x, y, z) becomes (x, z, -y). Colours are sRGB here and linear in glTF's factors; textures are
 sRGB in both, embedded as PNG, sampled with CLAMP_TO_EDGE so that charts do not bleed around the atlas. Normals are left out:
-a reader then shades flat, as the specification asks. Textures carry their light (they are painted views), so textured
-nodes are unlit (KHR_materials_unlit). Source: Khronos, glTF 2.0 specification, sections 3.6-3.9 and 4.
+a reader then shades flat, as the specification asks. The rooms' textures carry their light (they are painted views), so their
+nodes are unlit (KHR_materials_unlit); those of objects are colours of surfaces, and lit.
+Source: Khronos, glTF 2.0 specification, sections 3.6-3.9 and 4.
 """
 
 import dataclasses
@@ -36,6 +37,7 @@ class GlbNode:
     texture: np.ndarray | None = None  # [h, w, 3] uint8 sRGB
     base_color: np.ndarray | None = None  # [3] sRGB in [0, 1]; white without
     emission: float = 0.0  # how strongly it glows in its own colour
+    unlit: bool = False  # its colours carry their light
     double_sided: bool = False
 
 
@@ -45,20 +47,26 @@ def object_nodes(objects: Sequence[SceneObject]) -> list[GlbNode]:
     seen: dict[str, int] = {}
     for thing in objects:
         seen[thing.label] = seen.get(thing.label, 0) + 1
-        for slot in range(len(thing.slots)):
-            faces = thing.faces[thing.face_slot == slot]
-            used, inverse = np.unique(faces, return_inverse=True)
-            nodes.append(
-                GlbNode(
-                    name=f"{thing.label} {seen[thing.label]}",
-                    vertices=thing.vertices[used],
-                    faces=inverse.reshape(-1, 3),
-                    base_color=thing.slot_colors[slot],
-                    emission=float(thing.emission[slot]),
-                    double_sided=True,
-                )
-            )
+        nodes += [_slot_node(thing, slot, f"{thing.label} {seen[thing.label]}") for slot in range(len(thing.slots))]
     return nodes
+
+
+def _slot_node(thing: SceneObject, slot: int, name: str) -> GlbNode:
+    """The faces of one material, in their texture where they have one and else in one colour."""
+    mine = thing.face_slot == slot
+    texture = thing.texture
+    uv = base_color = image = None
+    if texture is None or not texture.slots[slot]:
+        vertex, index = np.unique(thing.faces[mine], return_inverse=True)
+        base_color = thing.slot_colors[slot]
+    else:
+        corners = np.concatenate([thing.faces[mine].reshape(-1, 1), texture.corner_uv[mine].reshape(-1, 2)], axis=1)
+        corners, index = np.unique(corners, axis=0, return_inverse=True)
+        vertex, uv, image = corners[:, 0].astype(np.int64), corners[:, 1:], texture.image
+    return GlbNode(
+        name=name, vertices=thing.vertices[vertex], faces=index.reshape(-1, 3), uv=uv, texture=image, base_color=base_color,
+        emission=float(thing.emission[slot]), double_sided=True,
+    )  # fmt: skip
 
 
 def save_glb(path: str | os.PathLike[str], nodes: Iterable[GlbNode]) -> None:
@@ -159,7 +167,7 @@ class _Document:
                 material["emissiveTexture"] = {"index": self._texture(node.texture)}
             if node.emission > 1:
                 self._extend(material, "KHR_materials_emissive_strength", {"emissiveStrength": node.emission})
-        elif node.texture is not None:
+        elif node.unlit:
             self._extend(material, "KHR_materials_unlit", {})
         self.materials.append(material)
         return len(self.materials) - 1

@@ -13,6 +13,7 @@ from jaxtyping import Float
 
 from wm.geometry.camera import ray_basis
 from wm.geometry.mesh import BOX_COLOR
+from wm.geometry.object_colors import object_colors
 from wm.geometry.sampling import sample_atlas
 from wm.schema import ConditionConfig, TextureSettings
 from wm.synth.backends import Condition
@@ -60,7 +61,7 @@ def make_condition(
     if settings.objects != "none":
         light = _headlight(gbuffer, camera, shown)[:, None]
         if settings.objects == "textured":
-            rgb[shown] = light * _face_colors(mesh, objects)[gbuffer.face[shown]]
+            rgb[shown] = light * _object_colors(mesh, objects, gbuffer.face[shown], gbuffer.barycentric[shown])
             known[shown] = 1.0
         else:
             rgb[shown] = light * np.float32(BOX_COLOR)
@@ -87,13 +88,14 @@ def _headlight(gbuffer: GBuffer, camera: Camera, shown: np.ndarray) -> np.ndarra
     return np.float32(_AMBIENT) + np.float32(1 - _AMBIENT) * facing
 
 
-def _face_colors(mesh: Mesh, objects: Sequence[SceneObject]) -> np.ndarray:
-    """[f, 3] float32 base colour of every face of an object; 0 for structure."""
+def _object_colors(mesh: Mesh, objects: Sequence[SceneObject], face: np.ndarray, barycentric: np.ndarray) -> np.ndarray:
+    """[n, 3] float32 base colours at points of the mesh's object faces."""
     counts = [len(o.faces) for o in objects]
     owner = np.repeat(np.arange(len(objects), dtype=np.int32), counts)
     structure = len(mesh.faces) - len(owner)
     ordered = structure >= 0 and np.array_equal(mesh.face_object[structure:], owner)
     if not ordered or (mesh.face_object[:structure] != OUTSIDE).any():
         raise ValueError("the objects are not those of the mesh: it must hold structure faces, then each object's faces in order")
-    parts = [o.slot_colors[o.face_slot].astype(np.float32) for o in objects]
-    return np.concatenate([np.zeros((structure, 3), np.float32), *parts])
+    first = np.cumsum([structure, *counts])
+    thing = mesh.face_object[face]
+    return object_colors(objects, thing, face - first[thing], barycentric)

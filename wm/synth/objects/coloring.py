@@ -1,8 +1,9 @@
 """Colours of reconstructed things, from the images that show them.
 
-A slot's colour is the median of the pixels in which its faces are seen. Those are the colours of lit surfaces; the scaffold
-wants the colours of the surfaces. What light did is told apart by what all things of a room have in common: the median ratio,
-per channel and in linear light, of the colours seen to the usual colours of the same materials.
+A slot's colour is the median of the pixels in which its faces are seen; what varies around it is `texturing`'s. Those
+are the colours of lit surfaces; the scaffold wants the colours of the surfaces. What light did is told apart by what all things
+of a room have in common: the median ratio, per channel and in linear light, of the colours seen to the usual colours of the same
+materials.
 """
 
 import dataclasses
@@ -40,12 +41,21 @@ def unlit(things: Sequence[Reconstruction]) -> list[SceneObject]:
     ]
     known = np.concatenate([np.zeros((0, 3)), *ratios])
     light = np.clip(np.median(known, axis=0), 0.1, 3.0) if len(known) >= 3 else np.ones(3)
-    return [dataclasses.replace(item.thing, slot_colors=_without(item, light)) for item in things]
+    return [_without(item, light) for item in things]
 
 
-def _without(item: Reconstruction, light: np.ndarray) -> np.ndarray:
-    surface = to_srgb(np.clip(to_linear(item.thing.slot_colors) / light, 0.0, 0.92).astype(np.float32))
-    return np.where(item.seen[:, None], surface, item.usual).astype(np.float32)
+def _without(item: Reconstruction, light: np.ndarray) -> SceneObject:
+    thing, texture = item.thing, item.thing.texture
+    colors = np.where(item.seen[:, None], _surface(thing.slot_colors, light), item.usual).astype(np.float32)
+    if texture is not None:
+        image = _surface(texture.image.astype(np.float32) / 255, light)
+        texture = dataclasses.replace(texture, image=np.round(255 * image).astype(np.uint8))
+    return dataclasses.replace(thing, slot_colors=colors, texture=texture)
+
+
+def _surface(colors: np.ndarray, light: np.ndarray) -> np.ndarray:
+    """Colours [..., 3] that surfaces have which show these in a light."""
+    return to_srgb(np.clip(to_linear(colors) / light, 0.0, 0.92).astype(np.float32))
 
 
 def _slot_samples(thing: SceneObject, slot: int) -> np.ndarray:

@@ -23,6 +23,7 @@ from wm.synth.objects.kinds import Template, kind_of, largest_size, rebuilt, tem
 from wm.synth.objects.sightings import near_together, sighting_points, trimmed
 from wm.synth.objects.template_cost import evidence_of
 from wm.synth.objects.template_fit import fit_template
+from wm.synth.objects.texturing import textured
 from wm.synth.procedural.finish import Style
 from wm.types import SceneObject
 
@@ -66,8 +67,9 @@ class TemplateReconstruction:
             return None
         thing = built(label, template, fit.box, room, seed=seed)
         colors, seen = slot_colors(thing, sightings)
+        colored = textured(dataclasses.replace(thing, slot_colors=colors), sightings, seen)
         return Reconstruction(
-            thing=transformed(dataclasses.replace(thing, slot_colors=colors), np.asarray(sightings[0].camera.T_cam_world)),
+            thing=transformed(colored, np.asarray(sightings[0].camera.T_cam_world)),
             seen=seen,
             usual=thing.slot_colors,
             residual=fit.residual,

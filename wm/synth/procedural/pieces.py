@@ -2,7 +2,8 @@
 
 A piece's mesh falls into parts (faces of one slot that hang together: a leg, a seat, a door). Solid materials are cut from a
 block of their own for every part, the grain along the part's longest side; laid patterns use the two axes across the face's
-normal.
+normal. Faces with a texture of their own (things lifted from images) have its colours instead of the pattern's, and keep the
+gloss of their material.
 """
 
 import dataclasses
@@ -12,6 +13,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from wm.geometry.mesh import face_crosses
+from wm.geometry.object_colors import object_colors
 from wm.synth.procedural.color import LUMINANCE, to_linear
 from wm.synth.procedural.finish import Finish, Style
 from wm.synth.procedural.light.sources import glow_color
@@ -39,6 +41,10 @@ class Pieces:
     axis: np.ndarray  # [f] int8 the axis of that frame nearest to the face's normal
     emission: np.ndarray  # [f, 3] float32 radiance that the eye sees of a glowing face
     glow: np.ndarray  # [f, 3] float32 the same as a source of light, not compressed
+    thing: np.ndarray  # [f] int32 index into objects
+    face: np.ndarray  # [f] int32 its number in that object
+    textured: np.ndarray  # [f] bool: its colours are those of that object's texture
+    objects: tuple[SceneObject, ...]
 
 
 def build_pieces(objects: list[SceneObject], style: Style, *, seed: int) -> Pieces:
@@ -48,11 +54,16 @@ def build_pieces(objects: list[SceneObject], style: Style, *, seed: int) -> Piec
     for number, thing in enumerate(objects):
         for k, name in enumerate(thing.slots):
             table.setdefault(name, (len(table), _finish(style, name, thing.slot_colors[k])))
+        columns["thing"].append(np.full(len(thing.faces), number))
+        columns["face"].append(np.arange(len(thing.faces)))
+        textured = np.zeros(len(thing.slots), bool) if thing.texture is None else thing.texture.slots
+        columns["textured"].append(textured[thing.face_slot])
         for name, values in _columns(thing, [table[name] for name in thing.slots], style, seed * 131 + number).items():
             columns[name].append(values)
     return Pieces(
         finishes=tuple(finish for _, finish in table.values()),
         seeds=tuple(seed * 17 + 3 * k for k in range(len(table))),
+        objects=tuple(objects),
         **{name: np.concatenate(values).astype(_COLUMNS[name][1]) for name, values in columns.items()},
     )
 
@@ -65,6 +76,9 @@ _COLUMNS: dict[str, tuple[tuple[int, ...], type]] = {
     "axis": ((0,), np.int8),
     "emission": ((0, 3), F32),
     "glow": ((0, 3), F32),
+    "thing": ((0,), np.int32),
+    "face": ((0,), np.int32),
+    "textured": ((0,), bool),
 }
 
 
@@ -102,6 +116,9 @@ def look(pieces: Pieces, face: np.ndarray, barycentric: np.ndarray, footprint: n
     corner = pieces.corners[face]
     place = ((1 - a - b) * corner[:, 0] + a * corner[:, 1] + b * corner[:, 2]).astype(F32)
     albedo, mirror = np.empty((len(face), 3), F32), np.empty((len(face), 3), F32)
+    own = pieces.textured[face]
+    colors = np.zeros((len(face), 3), F32)
+    colors[own] = to_linear(object_colors(pieces.objects, pieces.thing[face[own]], pieces.face[face[own]], barycentric[own]))
     finish_of = pieces.face_finish[face]
     order = np.argsort(finish_of.astype(np.uint16), kind="stable")
     bounds = np.searchsorted(finish_of[order], np.arange(len(pieces.finishes) + 1))
@@ -113,7 +130,8 @@ def look(pieces: Pieces, face: np.ndarray, barycentric: np.ndarray, footprint: n
         u, v = np.where(axis == 0, p[:, 1], p[:, 0]), np.where(axis == 2, p[:, 1], p[:, 2])
         points = Points(u=u, v=v, x=p[:, 0], y=p[:, 1], z=p[:, 2], footprint=footprint[chosen])
         surface = evaluate(points, finish, seed=pieces.seeds[k])
-        color = np.clip(_recolored(surface.albedo.T, finish, pieces, face[chosen]), 0, 0.92)
+        color = _recolored(surface.albedo.T, finish, pieces, face[chosen])
+        color = np.clip(np.where(own[chosen, None], colors[chosen], color), 0, 0.92)
         gloss = np.clip(1 - np.asarray(surface.roughness, F32), 0, 1) ** 2
         gloss = np.broadcast_to(gloss, len(chosen))[:, None]
         albedo[chosen] = color * F32(1 - surface.metallic)
