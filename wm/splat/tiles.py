@@ -67,8 +67,8 @@ def plan_tiles(
     gaussian, row = _rows_touched(mean[1], extent[1], height, settings.tile)
     terms = chord_terms(mean, root, opacity, extent, settings, np)
     first, spans = _columns_touched(gaussian, row, terms, width, settings.tile)
-    ids = np.repeat(order[gaussian], spans)
-    tile = _runs(row * np.int32(columns) + first, spans)
+    strip, tile = _runs(row * np.int32(columns) + first, spans)
+    ids = np.take(order[gaussian], strip)
     # the rows of this matrix are the tiles, its columns the gaussians in the order of `ids`; no entry comes twice
     matrix = coo_array((np.ones(len(ids), np.int8), (tile, ids)), shape=(columns * rows, len(depth) + 1))
     matrix.has_canonical_format = True
@@ -122,18 +122,19 @@ def _front_to_back(depth, visible):
 
 
 def _runs(first, lengths):
-    """The integers first, first + 1, ... of every run, one run after the other."""
+    """(which run, integer) of the integers first, first + 1, ... of every run, one run after the other."""
     ends = np.cumsum(lengths, dtype=np.int64)
     total = int(ends[-1]) if len(ends) else 0
+    run = np.repeat(np.arange(len(lengths)), lengths)
     dtype = np.int32 if total < 2**31 else np.int64
-    return np.repeat((first - (ends - lengths)).astype(dtype), lengths) + np.arange(total, dtype=dtype)
+    return run, np.take((first - (ends - lengths)).astype(dtype), run) + np.arange(total, dtype=dtype)
 
 
 def _rows_touched(centre, half_height, height: int, tile: int):
     """(index into the given gaussians, row of tiles) of every row that an ellipse's box meets, in the given order."""
     reach = half_height + slack(centre, half_height, np)
     first, spans = tile_span(centre - reach, centre + reach, height, tile, np)
-    return np.repeat(np.arange(len(spans), dtype=np.int32), spans), _runs(first, spans)
+    return _runs(first, spans)
 
 
 def _columns_touched(gaussian, row, terms, width: int, tile: int):
