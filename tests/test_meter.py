@@ -56,3 +56,23 @@ def test_the_memory_of_workers_counts_whichever_thread_started_them():
         assert worker.stdout is not None and worker.stdout.readline() == b"ready\n"
         assert resident_gib() > before + 0.25
         worker.communicate(b"\n")
+
+
+@pytest.mark.skipif(not pathlib.Path("/proc/self/task").exists(), reason="counts workers on Linux only")
+def test_the_memory_of_a_child_that_has_only_been_forked_is_counted_once():
+    code = """
+import os
+from wm.meter import resident_gib
+
+block = b"x" * 300_000_000
+ends = os.pipe()
+before = resident_gib()
+if os.fork() == 0:
+    os.read(ends[0], 1)
+    os._exit(0)
+print(resident_gib() - before)
+os.write(ends[1], b"x")
+os.wait()
+"""
+    grown = float(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout)
+    assert grown < 0.1

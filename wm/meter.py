@@ -66,9 +66,13 @@ def resident_gib() -> float:
 
 
 def _children(process: pathlib.Path) -> list[pathlib.Path]:
-    """Children of a process: each is listed with the thread that started it."""
+    """Children of a process: each is listed with the thread that started it.
+
+    One that goes by the parent's own command line has been forked and is no program of its own yet: its memory is the parent's.
+    """
     pids = [pid for listed in process.glob("task/*/children") for pid in _read(listed).split()]
-    return [pathlib.Path("/proc") / pid for pid in pids]
+    children, command = [pathlib.Path("/proc") / pid for pid in pids], _read(process / "cmdline")
+    return [child for child in children if _read(child / "cmdline") != command]
 
 
 def _read(file: pathlib.Path) -> str:
