@@ -76,8 +76,6 @@ def decode_arrays(data: bytes) -> dict[str, np.ndarray]:
 
 
 _OBJECT_ARRAYS = ("vertices", "faces", "face_slot", "slot_colors", "T_world_object", "size", "emission")
-
-
 _TEXTURE_ARRAYS = ("image", "corner_uv", "slots")
 
 

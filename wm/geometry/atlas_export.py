@@ -5,11 +5,10 @@ chart has a rim of its own border colours, so that filtering in a viewer finds n
 """
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from wm.geometry.atlas import chart_image
 from wm.geometry.glb import GlbNode
-from wm.geometry.packing import shelves
+from wm.geometry.packing import filled_image, shelves
 from wm.types import Atlas, Mesh
 
 RIM = 2  # texels around every chart
@@ -61,9 +60,5 @@ def _filled(atlas: Atlas, chart: int) -> np.ndarray:
     """[rows, columns, 3] uint8: a chart's colours, each unknown texel with that of the nearest known one."""
     color, known = chart_image(atlas, chart, atlas.color), chart_image(atlas, chart, atlas.weight) > 0
     if not known.any():
-        color = np.full_like(color, UNPAINTED)
-    elif not known.all():
-        nearest = np.empty((2, *known.shape), np.int32)
-        distance_transform_edt(~known, return_distances=False, return_indices=True, indices=nearest)
-        color = color[nearest[0], nearest[1]]
-    return np.round(np.clip(color, 0, 1) * 255).astype(np.uint8)
+        color, known = np.full_like(color, UNPAINTED), np.ones_like(known)
+    return filled_image(color, known)

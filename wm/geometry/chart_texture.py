@@ -7,10 +7,9 @@ pixel. So the image is as large as what is known of the surface, however much mo
 
 import numpy as np
 from jaxtyping import Float, UInt8
-from scipy.ndimage import distance_transform_edt
 
 from wm.geometry.atlas import texel_charts
-from wm.geometry.packing import shelves
+from wm.geometry.packing import filled_image, shelves
 from wm.types import Atlas
 
 RIM = 1  # pixels around every chart of more than one texel
@@ -45,10 +44,7 @@ def chart_texture(
     row, column = np.divmod(texel - atlas.chart_start[chart], atlas.chart_shape[chart, 1])
     at = row + corner[chart, 0], column + corner[chart, 1]
     color[at], filled[at] = atlas.color[texel], True
-    nearest = np.empty((2, *size), np.int32)
-    distance_transform_edt(~filled, return_distances=False, return_indices=True, indices=nearest)
-    image = np.round(np.clip(color[nearest[0], nearest[1]], 0, 1) * 255).astype(np.uint8)
-    return image, _corner_uv(atlas, corners, corner, size, flat=single | ~known)
+    return filled_image(color, filled), _corner_uv(atlas, corners, corner, size, flat=single | ~known)
 
 
 def _corner_uv(atlas: Atlas, corners: np.ndarray, corner: np.ndarray, size: tuple[int, int], *, flat: np.ndarray) -> np.ndarray:
