@@ -77,19 +77,6 @@ def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEF
     return _project(to_float32(gaussians), to_float32(camera), settings)
 
 
-def pull_gaussians(
-    gaussians: Gaussians, camera: Camera, projected: Projected, cotangent: Projected, settings: RasterSettings = DEFAULTS
-) -> Gaussians:
-    """The derivative of `project` by the gaussians where its result is at hand, which `jax.vjp` would compute once more.
-
-    Args:
-        gaussians, camera, settings: what `project` was called with; float32 arrays.
-        projected: what it returned.
-        cotangent: by its leaves; that of the extent is ignored.
-    """
-    return _pull_gaussians(gaussians, camera, projected.opacity > 0, cotangent, settings)
-
-
 @functools.partial(jax.custom_vjp, nondiff_argnums=(2,))
 def _project(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> Projected:
     return _project_fwd(gaussians, camera, settings)[0]
@@ -108,18 +95,29 @@ def _project_fwd(gaussians: Gaussians, camera: Camera, settings: RasterSettings)
         return (jnp.exp(gaussians.opacity_logits) >= settings.alpha_min).any()  # more than the opacity, so nothing is missed
 
     projected = in_blocks(shown, opaque, [gaussians], [0], out_axis=-1)
-    return projected, (gaussians, camera, projected.opacity > 0)
+    return projected, (gaussians, camera, projected)
 
 
 def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
-    gaussians, camera, visible = residuals
+    gaussians, camera, projected = residuals
+    visible = projected.opacity > 0
     # by the camera there are few numbers and many sums: the plain derivative, compiled only where somebody asks for it
     rows, masked = _visible_rows(gaussians, visible, cotangent)
     _, pull_camera = jax.vjp(lambda camera: _ellipses(rows, camera, settings, visible)[0], camera)
-    return _pull_gaussians(gaussians, camera, visible, cotangent, settings), pull_camera(masked)[0]
+    return pull_gaussians(gaussians, camera, projected, cotangent, settings), pull_camera(masked)[0]
 
 
-def _pull_gaussians(gaussians: Gaussians, camera: Camera, visible, cotangent: Projected, settings: RasterSettings) -> Gaussians:
+def pull_gaussians(
+    gaussians: Gaussians, camera: Camera, projected: Projected, cotangent: Projected, settings: RasterSettings = DEFAULTS
+) -> Gaussians:
+    """The derivative of `project` by the gaussians where its result is at hand, which `jax.vjp` would compute once more.
+
+    Args:
+        gaussians, camera, settings: what `project` was called with; float32 arrays.
+        projected: what it returned.
+        cotangent: by its leaves; that of the extent is ignored.
+    """
+
     def pull(gaussians: Gaussians, visible, cotangent: Projected) -> Gaussians:
         rows, masked = _visible_rows(gaussians, visible, cotangent)
         means, quats, log_scales, opacity_logits, sh = rows
@@ -136,7 +134,8 @@ def _pull_gaussians(gaussians: Gaussians, camera: Camera, visible, cotangent: Pr
             sh=jnp.stack([band.T for band in by_sh], 1),
         )
 
-    return in_blocks(pull, lambda _, visible, __: visible.any(), [gaussians, visible, cotangent], [0, 0, -1], out_axis=0)
+    parts = [gaussians, projected.opacity > 0, cotangent]
+    return in_blocks(pull, lambda _, visible, __: visible.any(), parts, [0, 0, -1], out_axis=0)
 
 
 def _visible_rows(gaussians: Gaussians, visible, cotangent: Projected):
