@@ -15,11 +15,12 @@ BLOCK = 2048
 def in_blocks(
     f: Callable, alive: Callable, args: Sequence[Any], axes: Sequence[int], *, out_axis: int, into: Any = None, at: int = 0
 ) -> Any:
-    """f(*args), block by block on a CPU, at once elsewhere. Same bytes.
+    """f(*args), block by block on a CPU, at once elsewhere. Same bytes wherever there is something to do.
 
     Args:
         f: what is done; its results for a gaussian depend on that gaussian alone.
-        alive: with the same arguments: whether there is anything to do for a block. If not, its results are left as they were.
+        alive: with the same arguments: whether there is anything to do for a block. If not, a CPU leaves its results as they were
+            and elsewhere they are those of f: nobody may read a difference.
         args: trees of arrays with gaussians along one axis; the first has n of them, the others may have more: not read.
         axes: that axis of each of them, 0 or -1.
         out_axis: the same of the results.

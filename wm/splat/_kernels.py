@@ -31,6 +31,9 @@ warnings.filterwarnings("ignore", message="The Pallas Triton backend is deprecat
 UNROLLED = 8
 """Gaussians between two looks at whether any pixel is open; their rows are fetched while the first of them is composited."""
 
+SUMMED = 8
+"""Gaussians whose rows one program adds up, side by side."""
+
 LANES = 16
 """Length of the vector that holds a row of the table, a power of two as Triton asks."""
 
@@ -85,7 +88,7 @@ def _sums_by_gaussian(rows, ids, n: int, interpret: bool):
     count = jnp.pad(jnp.zeros(n - 1, jnp.int32).at[ids].add(1, mode="drop"), (0, 1))
     call = pl.pallas_call(
         _sum_rows,
-        grid=(n,),
+        grid=(-(-n // SUMMED),),
         out_shape=jax.ShapeDtypeStruct((n, rows.shape[1]), jnp.float32),
         compiler_params=_ONE_WARP,
         interpret=interpret,
@@ -153,14 +156,17 @@ def _backward(_, table, ids, tile, start, length, t_end, F_end, g_t, g_F, rows, 
 
 
 def _sum_rows(rows, entries, start, count, sums):
-    gaussian, column = pl.program_id(0), jnp.arange(LANES)
-    mask = column < rows.shape[1]
+    gaussian, column = pl.program_id(0) * SUMMED + jnp.arange(SUMMED), jnp.arange(LANES)
+    there, wide = gaussian < sums.shape[0], column < rows.shape[1]
+    first, number = (plgpu.load(x.at[gaussian], mask=there, other=0) for x in (start, count))
 
     def step(k, total):
-        return total + plgpu.load(rows.at[entries[start[gaussian] + k], column], mask=mask, other=0.0)
+        has = k < number
+        entry = plgpu.load(entries.at[first + k], mask=has, other=0)
+        return total + plgpu.load(rows.at[entry[:, None], column[None]], mask=has[:, None] & wide[None], other=0.0)
 
-    total = jax.lax.fori_loop(0, count[gaussian], step, jnp.zeros(LANES))
-    plgpu.store(sums.at[gaussian, column], total, mask=mask)
+    total = jax.lax.fori_loop(0, jnp.max(number), step, jnp.zeros((SUMMED, LANES)))
+    plgpu.store(sums.at[gaussian[:, None], column[None]], total, mask=there[:, None] & wide[None])
 
 
 class _Walk:

@@ -31,19 +31,24 @@ def from_centre(means: list, T: Float[Array, "4 4"]) -> list:
 
 def _near_centre(T):
     # apart: every use must see the same digits, and computed twice, with and without fused multiplication, they are not
-    return apart(T[0, 0] == -jnp.inf, _centre, jax.lax.stop_gradient(T))
+    return apart(T[0, 0] == -jnp.inf, _centre, jax.lax.stop_gradient(T), everywhere=True)
 
 
 def _centre(T):
     return -jnp.matmul(T[:3, :3].T, T[:3, 3], precision="highest")
 
 
+@jax.custom_jvp
 def _exact_affine(A, x, b):
     """A x + b of [3, 3], [3] and [3], rounded once; its derivative is the plain one."""
-    plain = (A * x).sum(1) + b
     # apart: XLA may fuse what is small into the loop over points, and do it again for each of them
-    exact = apart(A[0, 0] == -jnp.inf, _compensated, *jax.lax.stop_gradient((A, x, b)))
-    return exact + (plain - jax.lax.stop_gradient(plain))
+    return apart(A[0, 0] == -jnp.inf, _compensated, A, x, b, everywhere=True)
+
+
+@_exact_affine.defjvp
+def _exact_affine_jvp(primals, tangents):
+    (A, x, _), (dA, dx, db) = primals, tangents
+    return _exact_affine(*primals), (dA * x + A * dx).sum(1) + db
 
 
 def _compensated(A, x, b):
