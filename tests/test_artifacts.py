@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.artifacts import ArtifactError, digest, open_run_folder, write_atomically
+from wm.artifacts import ArtifactError, digest, identity, open_run_folder, write_atomically
+from wm.schema import ImageConfig, ReportConfig, RunConfig
 
 HEADER = {"seed": 0, "config": {"fit": {"steps": 10}}}
 
@@ -44,7 +45,7 @@ def test_a_damaged_file_is_noticed_and_said(tmp_path, damage):
     assert len(said) == 1 and "v.png" in said[0] and "view" in said[0]
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"header": {}, "entries": {"a": 1}}', '{"header": 3, "entries": {}}'])
+@pytest.mark.parametrize("text", ["", "{", '{"header": {"seed": 0'])
 def test_a_damaged_manifest_starts_over_with_a_line(tmp_path, text):
     (tmp_path / "manifest.json").write_text(text)
     said = []
@@ -52,6 +53,18 @@ def test_a_damaged_manifest_starts_over_with_a_line(tmp_path, text):
         assert not folder.has("plan", "k")
     assert "damaged" in said[0]
     assert json.loads((tmp_path / "manifest.json").read_text())["header"] == HEADER
+
+
+@pytest.mark.parametrize(
+    "text", ["[]", '{"name": "my web app"}', '{"header": {}, "entries": {"a": 1}}', '{"header": 3, "entries": {}}']
+)
+def test_a_manifest_of_somebody_else_is_left_alone(tmp_path, text):
+    (tmp_path / "manifest.json").write_text(text)
+    with pytest.raises(ArtifactError, match="holds no run"), open_run_folder(tmp_path, HEADER):
+        pass
+    assert [(file.name, file.read_text()) for file in tmp_path.iterdir()] == [("manifest.json", text)]
+    with open_run_folder(tmp_path, HEADER, overwrite=True) as folder:
+        assert not folder.has("plan", "k")
 
 
 def test_another_configuration_is_refused_and_named(tmp_path):
@@ -81,10 +94,14 @@ def test_of_many_differences_the_preset_is_named_first(tmp_path):
         open_run_folder(tmp_path, other).__enter__()
 
 
-def test_a_folder_with_strangers_files_is_refused(tmp_path):
-    (tmp_path / "thesis.tex").write_text("years of work")
+def test_a_folder_with_strangers_files_is_refused_and_left_as_it_was(tmp_path):
+    files = [tmp_path / name for name in ("thesis.tex", ".part-of-a-download", "inner/.part-abc.png")]
+    for file in files:
+        file.parent.mkdir(exist_ok=True)
+        file.write_text("years of work")
     with pytest.raises(ArtifactError, match="not empty"), open_run_folder(tmp_path, HEADER):
         pass
+    assert sorted(file for file in tmp_path.rglob("*") if file.is_file()) == sorted(files)
 
 
 def _try_to_open(path, queue):
@@ -126,8 +143,11 @@ def test_litter_of_a_killed_run_is_swept(tmp_path):
         pass
     (tmp_path / "views").mkdir()
     (tmp_path / "views" / ".part-abc.png").write_bytes(b"half")
-    with open_run_folder(tmp_path, HEADER):
-        assert not list(tmp_path.rglob(".part-*"))
+    with open_run_folder(tmp_path / "another" / "run", HEADER):
+        at_work = tmp_path / "another" / "run" / ".part-xyz.png"
+        at_work.write_bytes(b"half")
+        with open_run_folder(tmp_path, HEADER):
+            assert list(tmp_path.rglob(".part-*")) == [at_work]
 
 
 def test_stale_entries_are_dropped_with_their_files(tmp_path):
@@ -149,3 +169,12 @@ def test_digest_depends_on_content_and_not_on_order(values):
 def test_digest_tells_arrays_apart_by_shape_and_type():
     flat = np.arange(6, dtype=np.float32)
     assert len({digest(flat), digest(flat.reshape(2, 3)), digest(flat.astype(np.float64)), digest(flat + 1)}) == 4
+
+
+def test_what_changes_no_result_is_no_part_of_a_key():
+    run = RunConfig()
+    parts = {"image": ImageConfig(worker=False), "report": ReportConfig(enabled=False)}
+    beside = RunConfig(**parts, output="x", reuse=False, overwrite=True, workers=None, debug=True)
+    assert digest(run) == digest(beside) != digest(RunConfig(seed=1))
+    assert digest(ReportConfig()) != digest(ReportConfig(enabled=False))  # of the report itself it is
+    assert "worker" not in identity(run)["image"] and identity(run)["fit"]["steps"] == run.fit.steps

@@ -120,6 +120,11 @@ def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(whole, tmp_pa
     assert not {"plan", "furnish", "paint", "heldout"} & set(made) and "reconstruct" in made
     theirs, ours = (json.loads((folder / "timings.json").read_text()) for folder in (whole, tmp_path / "borrowed"))
     assert ours["paint"]["seconds"] >= theirs["paint"]["seconds"]
+    run(config, tmp_path / "borrowed")  # finds all done, which costs nothing
+    again = json.loads((tmp_path / "borrowed" / "timings.json").read_text())
+    assert [again[stage] for stage in ("plan", "paint", "reconstruct", "report")] == [
+        ours[stage] for stage in ("plan", "paint", "reconstruct", "report")
+    ]
     run(config, tmp_path / "alone")
     assert _bytes(tmp_path / "borrowed") == _bytes(tmp_path / "alone")
     assert (tmp_path / "borrowed/layout.json").is_file()

@@ -13,6 +13,12 @@ from wm import run
 from wm.errors import InputError
 from wm.geometry import PlanError, Violation
 
+WRITES = """
+    import json, pathlib
+    config = {"variant": config.variant, "seed": config.seed, "scene": {"name": config.scene.name}}
+    pathlib.Path(folder, "manifest.json").write_text(json.dumps({"header": {"config": config}}))
+    pathlib.Path(folder, "metrics.json").write_text(json.dumps({"psnr": 20.0 + len(config["variant"])}))
+"""
 FAKE = """
 import sys, types
 def pipeline(config, folder, neighbours):
@@ -95,6 +101,33 @@ def test_the_neighbours_are_the_other_variants_of_the_same_scene_and_seed(door, 
     assert door(*arguments, f"output={tmp_path / 'outputs/gothic/mine/3'}")[2][0][2] == []
 
 
+@pytest.mark.parametrize("arguments", [(), ("output=mine",), ("fit.steps=-1",)])
+def test_a_run_that_wrote_nothing_leaves_no_folder(door, tmp_path, arguments):
+    kept = tmp_path / "outputs/gothic/depth_only/3/manifest.json"
+    for beside in (False, True):
+        if beside:
+            kept.parent.mkdir(parents=True)
+            kept.write_text("{}")
+        code, _, _ = door("+scene=gothic", *arguments, action=raising(InputError("no such plan")))
+        assert code == 2
+        assert [path for path in tmp_path.rglob("*") if path.is_file()] == [kept] * beside
+        assert sorted(path.name for path in tmp_path.iterdir()) == ["outputs"] * beside
+
+
+def test_a_run_that_wrote_something_keeps_its_folder(door, tmp_path):
+    def half(config, folder):
+        (folder / "manifest.json").write_text("{}")
+        raise RuntimeError("ill")
+
+    assert door("+scene=gothic", action=half)[0] == 1
+    assert (tmp_path / "outputs/gothic/full/0/manifest.json").is_file()
+
+
+def test_hydra_may_say_where_even_at_the_root(door, tmp_path, monkeypatch):
+    monkeypatch.setattr(run, "_tidy", lambda folder: None)
+    assert door("+scene=gothic", "hydra.run.dir=/")[2][0][1:] == (Path("/"), [])
+
+
 def test_hydra_may_say_where(door, tmp_path):
     assert door("+scene=gothic", f"hydra.run.dir={tmp_path / 'x'}")[2][0][1] == tmp_path / "x"
 
@@ -105,7 +138,8 @@ def test_hydra_may_say_where(door, tmp_path):
         (OSError(errno.ENOSPC, "No space left on device", "views/a.png"), 1, "views/a.png: the disk is full"),
         (PermissionError(errno.EACCES, "Permission denied", "plan.json"), 1, "plan.json: no permission to write or read here"),
         (OSError(errno.EROFS, "Read-only file system", "plan.json"), 1, "plan.json: no permission"),
-        (RuntimeError("the painter\n  fell ill"), 1, "the painter; fell ill"),
+        (RuntimeError("the painter\n  fell ill"), 1, "RuntimeError: the painter; fell ill (debug=true shows where)"),
+        (IndexError(), 1, "IndexError"),
         (InputError("room hall: no free spot for a camera"), 2, "room hall: no free spot for a camera"),
         (RuntimeError("\n".join(f"line {k}" for k in range(200))), 1, "line 11; and 188 more"),
         (
@@ -140,7 +174,7 @@ def test_input_that_cannot_be_run_exits_with_2_and_one_line(door, arguments):
 def test_a_file_where_the_folder_should_be(door, tmp_path):
     (tmp_path / "outputs").write_text("not a folder")
     code, err, calls = door("+scene=gothic")
-    assert (code, calls) == (1, [])
+    assert (code, calls) == (2, [])
     assert "a file stands where a folder is needed" in err and err.count("\n") == 1
 
 
@@ -163,19 +197,27 @@ def test_a_sweep_runs_every_variant_although_one_fails(tmp_path):
     done = command("-m", "+scene=gothic", "variant=full,depth_only", cwd=tmp_path, action=action)
     assert done.returncode == 1
     assert [line.split()[1] for line in done.stdout.splitlines() if line.startswith("gothic")] == ["full", "depth_only"]
-    assert f"wm: {tmp_path}/outputs/gothic/full/0: ill" in done.stderr
+    assert f"wm: {tmp_path}/outputs/gothic/full/0: RuntimeError: ill" in done.stderr
     assert "Traceback" not in done.stderr
     assert (tmp_path / "outputs/gothic/depth_only/0").is_dir()
 
 
+def test_runs_of_a_sweep_that_would_share_a_folder_are_told_how_not_to(tmp_path):
+    done = command("-m", "+scene=gothic", "preset=draft,standard", cwd=tmp_path, action=WRITES)
+    assert done.returncode == 2
+    assert done.stdout.count("gothic full") == 1 and "an earlier run of this sweep has this folder" in done.stderr
+
+
+@pytest.mark.parametrize("group, named", [("preset", "${preset}"), ("image", "${hydra:runtime.choices.image}")])
+def test_runs_of_a_sweep_lie_where_the_output_says_for_each(tmp_path, group, named):
+    two = run.options(group)[:2]
+    done = command("-m", "+scene=gothic", f"{group}={','.join(two)}", f"output=runs/{named}", cwd=tmp_path, action=WRITES)
+    assert done.returncode == 0
+    assert tuple(sorted(path.name for path in (tmp_path / "runs").iterdir())) == two
+
+
 def test_a_sweep_ends_with_a_table_of_its_runs(tmp_path):
-    action = """
-    import json, pathlib
-    config = {"variant": config.variant, "seed": config.seed, "scene": {"name": config.scene.name}}
-    pathlib.Path(folder, "manifest.json").write_text(json.dumps({"header": {"config": config}}))
-    pathlib.Path(folder, "metrics.json").write_text(json.dumps({"psnr": 20.0 + len(config["variant"])}))
-"""
-    done = command("-m", "+scene=gothic", "variant=full,depth_only", cwd=tmp_path, action=action)
+    done = command("-m", "+scene=gothic", "variant=full,depth_only", cwd=tmp_path, action=WRITES)
     assert done.returncode == 0
     table = [line for line in done.stdout.splitlines() if line.startswith("| ")]
     assert [line.split("|")[1].strip() for line in table[1:3]] == ["full", "depth_only"]

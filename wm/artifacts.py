@@ -18,6 +18,8 @@ from typing import Any
 
 import numpy as np
 
+from wm.errors import InputError
+
 try:
     import fcntl
 except ImportError:  # Windows has no flock: there the folder is not locked
@@ -29,12 +31,15 @@ TEMPORARY = ".part-"
 _TELLING = ("config.scene.name", "config.preset", "config.variant", "seed")
 """Of what may differ between two configurations, what tells most: a preset brings a dozen others with it."""
 
+_UMASK = os.umask(0)
+os.umask(_UMASK)  # a process can read it only by setting it
+
 Writer = Callable[[pathlib.Path], Any]
 Lender = Callable[[str, str, pathlib.Path], list[str]]
 """Brings the files of an entry (its name, its key) into a folder from elsewhere; an empty list where that cannot be done."""
 
 
-class ArtifactError(RuntimeError):
+class ArtifactError(InputError):
     """The run folder cannot be used as asked; the message says why and what would help."""
 
 
@@ -48,10 +53,17 @@ def digest(*parts: Any) -> str:
         elif isinstance(part, bytes):
             sha.update(part)
         else:
-            value = dataclasses.asdict(part) if dataclasses.is_dataclass(part) and not isinstance(part, type) else part
-            sha.update(json.dumps(value, sort_keys=True, allow_nan=False).encode())
+            sha.update(json.dumps(identity(part), sort_keys=True, allow_nan=False).encode())
         sha.update(b"\x00")
     return sha.hexdigest()[:20]
+
+
+def identity(value: Any) -> Any:
+    """A settings record as JSON-like values, without the fields that change no result (`wm.schema.BESIDE`)."""
+    if not dataclasses.is_dataclass(value) or isinstance(value, type):
+        return value
+    kept = (field.name for field in dataclasses.fields(value) if field.metadata.get("identity", True))
+    return {name: identity(getattr(value, name)) for name in kept}
 
 
 def write_atomically(path: pathlib.Path, write: Writer | bytes | str) -> None:
@@ -74,7 +86,7 @@ def write_atomically(path: pathlib.Path, write: Writer | bytes | str) -> None:
             pathlib.Path(name).write_bytes(write.encode() if isinstance(write, str) else write)
         with open(name, "rb+") as file:
             os.fsync(file.fileno())
-        os.chmod(name, 0o644)
+        os.chmod(name, 0o666 & ~_UMASK)
         os.replace(name, path)
     except BaseException as error:
         with contextlib.suppress(OSError):
@@ -87,6 +99,11 @@ def write_atomically(path: pathlib.Path, write: Writer | bytes | str) -> None:
 def file_digest(path: pathlib.Path) -> str:
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()[:20]
+
+
+def content_digest(content: bytes) -> str:
+    """`file_digest` of a file that holds this."""
+    return hashlib.sha256(content).hexdigest()[:20]
 
 
 def json_text(value: Any) -> str:
@@ -106,6 +123,10 @@ class RunFolder:
         self._lend = lend
         self._header: dict[str, Any] = {}
         self._entries: dict[str, dict[str, Any]] = {}
+        self.recorded = 0
+        """How many entries this process has put in: made, or borrowed."""
+        self.overwrites = False
+        """Whether another configuration's run was here."""
 
     def has(self, name: str, key: str) -> bool:
         """Whether entry `name` made from `key` is here and whole; a damaged one is forgotten, with a line.
@@ -146,6 +167,7 @@ class RunFolder:
         """Records an entry whose files are already in place."""
         digests = {relative: file_digest(self.path / relative) for relative in sorted(relatives)}
         self._entries[name] = {"key": key, "files": digests}
+        self.recorded += 1
         self._write_manifest()
 
     def drop_others(self, prefix: str, keep: set[str]) -> None:
@@ -160,31 +182,39 @@ class RunFolder:
             self._write_manifest()
 
     def open(self, header: dict[str, Any], *, overwrite: bool) -> None:
-        """Reads the manifest; the folder must be new, or made by the same configuration, unless `overwrite`."""
-        manifest = self.path / MANIFEST
-        for left in self.path.rglob(TEMPORARY + "*"):
-            left.unlink(missing_ok=True)
-        if manifest.exists():
-            try:
-                found = json.loads(manifest.read_text())
-                old, entries = found["header"], found["entries"]
-                known = all(isinstance(e["key"], str) and isinstance(e["files"], dict) for e in entries.values())
-                if not known or not isinstance(old, dict):
-                    raise ValueError("not a manifest")
-            except (ValueError, KeyError, TypeError, AttributeError):
-                self._say(f"{manifest}: damaged; making everything again")
-            else:
-                changed = sorted(_differences(old, header), key=lambda line: not line.startswith(_TELLING))
-                if changed and entries and not overwrite:
-                    raise ArtifactError(
-                        f"{self.path} holds a run with {'; '.join(changed[:4])}{' ...' if len(changed) > 4 else ''}. "
-                        "Choose another folder (output=...), or pass overwrite=true to remake what differs"
-                    )
-                self._entries = entries
-        elif any(child.name not in (LOCK, ".hydra") for child in self.path.iterdir()) and not overwrite:
+        """Reads the manifest; the folder must be new, or made by the same configuration, unless `overwrite`.
+
+        What a killed run left half written is swept once the folder is known to be ours.
+        """
+        found, here = self._read_manifest(), {child.name for child in self.path.iterdir()} - {LOCK, ".hydra"}
+        if found is None and here and not overwrite:
             raise ArtifactError(f"{self.path} is not empty and holds no run; choose another folder (output=...)")
-        self._header = header
+        old, entries = found or ({}, {})
+        changed = sorted(_differences(old, header), key=lambda line: not line.startswith(_TELLING))
+        if changed and entries and not overwrite:
+            raise ArtifactError(
+                f"{self.path} holds a run with {'; '.join(changed[:4])}{' ...' if len(changed) > 4 else ''}. "
+                "Choose another folder (output=...), or pass overwrite=true to remake what differs"
+            )
+        for left in _litter(self.path):
+            left.unlink(missing_ok=True)
+        self._header, self._entries, self.overwrites = header, entries, bool(changed)
         self._write_manifest()
+
+    def _read_manifest(self) -> tuple[dict[str, Any], dict[str, Any]] | None:
+        """Header and entries, both empty if the text is damaged; None if there is no manifest, or somebody else's."""
+        file = self.path / MANIFEST
+        try:
+            manifest = json.loads(file.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            return None
+        except ValueError:  # never by a killed run, since manifests are renamed into place
+            self._say(f"{file}: damaged; making everything again")
+            return {}, {}
+        match manifest:
+            case {"header": dict(header), "entries": dict(entries)} if all(map(_is_entry, entries.values())):
+                return header, entries
+        return None
 
     def _write_manifest(self) -> None:
         write_atomically(self.path / MANIFEST, json_text({"header": self._header, "entries": self._entries}))
@@ -213,6 +243,7 @@ def open_run_folder(
       OSError: the folder cannot be made or written.
     """
     path.mkdir(parents=True, exist_ok=True)
+    locked_before = (path / LOCK).exists()
     with (path / LOCK).open("a+b") as lock:
         if fcntl is not None:
             try:
@@ -222,8 +253,30 @@ def open_run_folder(
                     f"{path} is in use by another run; wait for it, or choose another folder (output=...)"
                 ) from None
         folder = RunFolder(path, say, lend)
-        folder.open(header, overwrite=overwrite)
+        try:
+            folder.open(header, overwrite=overwrite)
+        except ArtifactError:
+            if not locked_before:
+                (path / LOCK).unlink(missing_ok=True)  # a folder that is refused stays as it was
+            raise
         yield folder
+
+
+def _litter(path: pathlib.Path) -> list[pathlib.Path]:
+    """Temporary files of `write_atomically` below a run folder, but for those in other runs' folders inside it."""
+    found = []
+    for folder, inner, files in os.walk(path):
+        here = pathlib.Path(folder)
+        inner[:] = [name for name in inner if not (here / name / MANIFEST).exists()]
+        found += [here / name for name in files if name.startswith(TEMPORARY)]
+    return found
+
+
+def _is_entry(entry: Any) -> bool:
+    match entry:
+        case {"key": str(), "files": dict()}:
+            return True
+    return False
 
 
 def _differences(old: Any, new: Any, prefix: str = "") -> list[str]:

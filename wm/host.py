@@ -12,7 +12,7 @@ _M_TRIM_THRESHOLD, _M_TOP_PAD, _M_MMAP_MAX, _M_ARENA_MAX = -1, -2, -4, -8
 
 def prepare_process() -> None:
     """Keeps freed memory for reuse, where the C library is glibc."""
-    with contextlib.suppress(OSError, AttributeError):  # another C library: its own defaults
+    with contextlib.suppress(OSError, AttributeError, TypeError):  # another C library: its own defaults
         libc = ctypes.CDLL(None)
         libc.mallopt(_M_ARENA_MAX, 1)
         libc.mallopt(_M_MMAP_MAX, 0)

@@ -6,27 +6,58 @@ import pathlib
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 SAMPLE_SECONDS = 0.05
 
 
-class StageMeter:
-    """Seconds and peak resident memory of each stage; seconds add up over the parts of an interrupted run."""
+KEEP_SECONDS = 5.0
+"""How often the times of a stage under way are kept, for the case that the process is killed."""
 
-    def __init__(self, earlier: dict[str, dict[str, float]] | None = None):
-        self.stages: dict[str, dict[str, float]] = {name: dict(row) for name, row in (earlier or {}).items()}
+Rows = dict[str, dict[str, float]]
+
+
+class StageMeter:
+    """Seconds and peak resident memory of each stage; seconds add up over the parts of an interrupted run.
+
+    Args:
+      earlier: rows that the run folder has from before.
+      keep: called with all rows every now and then, from another thread, and at the end of each stage.
+    """
+
+    def __init__(self, earlier: Rows | None = None, keep: Callable[[Rows], None] = lambda rows: None):
+        self.stages: Rows = {name: dict(row) for name, row in (earlier or {}).items()}
+        self._keep = keep
+        self._outdated: set[str] = set()
+
+    def outdate(self) -> None:
+        """What is there so far is of another run: a row counts only as long as its stage makes nothing anew."""
+        self._outdated = set(self.stages)
 
     @contextlib.contextmanager
-    def stage(self, name: str) -> Iterator[None]:
-        """Measures the block as (a further part of) stage `name`."""
-        started = time.perf_counter()
-        peak = [resident_gib()]
-        done = threading.Event()
+    def stage(self, name: str, made: Callable[[], bool] = lambda: True) -> Iterator[None]:
+        """Measures the block as (a further part of) stage `name`.
+
+        Args:
+          name: of the stage.
+          made: whether it has made anything so far. One that finds all done costs nothing, if it has a row.
+        """
+        started, peak, done = time.perf_counter(), [resident_gib()], threading.Event()
+
+        def rows() -> Rows:
+            if name in self.stages and not made():
+                return self.stages
+            row = {"seconds": time.perf_counter() - started, "peak_gib": max(peak[0], resident_gib())}
+            return self.stages | {name: _together(self._known(name), row)}
 
         def watch() -> None:
+            kept = started
             while not done.wait(SAMPLE_SECONDS):
                 peak[0] = max(peak[0], resident_gib())
+                if time.perf_counter() - kept > KEEP_SECONDS:
+                    with contextlib.suppress(OSError):  # a full disk is for the stage to say
+                        self._keep(rows())
+                    kept = time.perf_counter()
 
         watcher = threading.Thread(target=watch, daemon=True)
         watcher.start()
@@ -35,15 +66,18 @@ class StageMeter:
         finally:
             done.set()
             watcher.join()
-            row = self.stages.setdefault(name, {"seconds": 0.0, "peak_gib": 0.0})
-            row["seconds"] = round(row["seconds"] + time.perf_counter() - started, 3)
-            row["peak_gib"] = round(max(row["peak_gib"], peak[0], resident_gib()), 3)
+            self.stages = rows()
+            self._outdated.discard(name)
+            self._keep(self.stages)
 
     def credit(self, name: str, row: dict[str, float]) -> None:
         """Adds what (a part of) stage `name` has cost elsewhere, where its result was taken from."""
-        own = self.stages.setdefault(name, {"seconds": 0.0, "peak_gib": 0.0})
-        own["seconds"] = round(own["seconds"] + row["seconds"], 3)
-        own["peak_gib"] = max(own["peak_gib"], row["peak_gib"])
+        self.stages = self.stages | {name: _together(self._known(name), row)}
+        self._outdated.discard(name)
+
+    def _known(self, name: str) -> dict[str, float]:
+        nothing = {"seconds": 0.0, "peak_gib": 0.0}
+        return nothing if name in self._outdated else self.stages.get(name, nothing)
 
     @property
     def seconds(self) -> float:
@@ -54,13 +88,21 @@ class StageMeter:
         return max((row["peak_gib"] for row in self.stages.values()), default=0.0)
 
 
+def _together(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
+    """The row of two parts of a stage."""
+    seconds, peak = a["seconds"] + b["seconds"], max(a["peak_gib"], b["peak_gib"])
+    return {"seconds": round(seconds, 3), "peak_gib": round(peak, 3)}
+
+
 def resident_gib() -> float:
     """Resident memory of this process in GiB: now and with its workers on Linux, the highest so far elsewhere."""
     own = pathlib.Path("/proc/self")
     if (own / "statm").exists():
         return sum(map(_resident_pages, [own, *_children(own)])) * os.sysconf("SC_PAGE_SIZE") / 2**30
-    import resource
-
+    try:
+        import resource
+    except ImportError:  # Windows
+        return 0.0
     unit = 1 if sys.platform == "darwin" else 1024
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 2**30
 

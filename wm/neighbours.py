@@ -8,11 +8,10 @@ that a folder can be changed or deleted without the others.
 import dataclasses
 import json
 import pathlib
-import shutil
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from wm.artifacts import MANIFEST, file_digest, write_atomically
+from wm.artifacts import MANIFEST, content_digest, write_atomically
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -27,8 +26,7 @@ class Neighbours:
     """What the runs beside this one have finished.
 
     Args:
-      folders: run folders; one without a readable manifest, or made by other versions of the libraries, lends nothing.
-      versions: of the run that borrows.
+      folders: run folders; one without a readable manifest lends nothing.
       say: called with one line for each stage and folder from which something is taken.
       account: called with a stage and a folder at the same time: the work has cost something there.
     """
@@ -36,12 +34,11 @@ class Neighbours:
     def __init__(
         self,
         folders: Iterable[pathlib.Path],
-        versions: Mapping[str, str],
         *,
         say: Callable[[str], None],
         account: Callable[[str, pathlib.Path], None],
     ):
-        self._neighbours = [one for folder in folders if (one := _read(folder, versions)) is not None]
+        self._neighbours = [one for folder in folders if (one := _read(folder)) is not None]
         self._say, self._account = say, account
         self._said: set[tuple[str, pathlib.Path]] = set()
 
@@ -65,22 +62,23 @@ class Neighbours:
             self._account(stage, path)
 
 
-def _read(folder: pathlib.Path, versions: Mapping[str, str]) -> Neighbour | None:
+def _read(folder: pathlib.Path) -> Neighbour | None:
     try:
         manifest = json.loads((folder / MANIFEST).read_text())
         entries = {name: {"key": str(e["key"]), "files": dict(e["files"])} for name, e in manifest["entries"].items()}
-        return Neighbour(path=folder, entries=entries) if manifest["header"]["versions"] == dict(versions) else None
+        return Neighbour(path=folder, entries=entries)
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
 
 
 def _copy(source: pathlib.Path, files: Mapping[str, str], into: pathlib.Path) -> bool:
-    """Whether all files were there and whole; they are then in `into`."""
+    """Whether all files were there, to be read, and whole; they are then in `into`."""
     try:
-        if any(file_digest(source / relative) != expected for relative, expected in files.items()):
-            return False
-        for relative in files:
-            write_atomically(into / relative, lambda path, file=source / relative: shutil.copyfile(file, path))
-    except FileNotFoundError:  # the neighbour is at work, or somebody tidied up
+        contents = {relative: (source / relative).read_bytes() for relative in files}
+    except OSError:  # the neighbour is at work, somebody tidied up, or it is not ours to read
         return False
-    return all(file_digest(into / relative) == expected for relative, expected in files.items())
+    if any(content_digest(contents[relative]) != expected for relative, expected in files.items()):
+        return False
+    for relative, content in contents.items():
+        write_atomically(into / relative, content)
+    return True

@@ -4,15 +4,12 @@ A stage's key is a digest of its configuration, the seed and the keys of its inp
 missing, and ends with the same bytes as an undisturbed one. Each stage is a function of `wm.stages`.
 """
 
-import dataclasses
 import functools
-import importlib.metadata
 import json
 import pathlib
 from collections.abc import Sequence
 
-import wm
-from wm.artifacts import open_run_folder, write_atomically
+from wm.artifacts import identity, json_text, open_run_folder, write_atomically
 from wm.geometry import load_plan
 from wm.host import prepare_process
 from wm.meter import StageMeter
@@ -21,7 +18,7 @@ from wm.schema import RunConfig
 from wm.stages.evaluation import METRICS, evaluate
 from wm.stages.fitters import fitters
 from wm.stages.heldout import HeldOut, render_heldout
-from wm.stages.job import TIMINGS, Job
+from wm.stages.job import TIMINGS, Job, versions
 from wm.stages.painting import Painted, is_painted, paint
 from wm.stages.reconstruction import HISTORY, reconstruct
 from wm.stages.rehearsal import rehearsed
@@ -29,9 +26,6 @@ from wm.stages.reporting import REPORT, report
 from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.synth.backends import make_backend
 
-_RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
-_NOT_IDENTITY = ("output", "overwrite", "debug", "report", "reuse", "workers")
-"""Parts of the configuration that change no stage's result."""
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
 """Files that a stage leaves and that depend on the clock."""
 
@@ -56,10 +50,12 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     prepare_process()
     if config.plan.file is not None:
         load_plan(pathlib.Path(config.plan.file))  # a plan that cannot be used leaves no folder behind
-    header, meter = _header(config), StageMeter(_timings(folder))
+    header, meter = _header(config), StageMeter(_timings(folder), keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
-    lend = Neighbours(neighbours, header["versions"], say=print, account=account).lend
+    lend = Neighbours(neighbours, say=print, account=account).lend
     with open_run_folder(folder, header, overwrite=config.overwrite, lend=lend) as store:
+        if store.overwrites:
+            meter.outdate()
         job = Job(config=config, folder=store, meter=meter)
         scene = build_scene(job)
         with fitters(config, scene) as fitting:
@@ -88,9 +84,11 @@ def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pat
 
 
 def _header(config: RunConfig) -> dict:
-    versions = {"wm": wm.__version__} | {name: importlib.metadata.version(name) for name in _RECORDED}
-    identity = {name: value for name, value in dataclasses.asdict(config).items() if name not in _NOT_IDENTITY}
-    return {"config": identity, "seed": config.seed, "versions": versions}
+    return {"config": identity(config), "seed": config.seed, "versions": versions()}
+
+
+def _keep_timings(folder: pathlib.Path, rows: dict) -> None:
+    write_atomically(folder / TIMINGS, json_text(rows))
 
 
 def _timings(folder: pathlib.Path) -> dict:

@@ -7,6 +7,7 @@ Errors are one line on stderr (tracebacks with debug=true) and an exit code: 2 f
 failed, 130 after Ctrl-C. The only module that imports hydra.
 """
 
+import contextlib
 import difflib
 import errno
 import importlib
@@ -31,15 +32,18 @@ from wm.schema import RunConfig
 from wm.validate import ConfigError, validate_config
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
+OUTPUTS = "outputs"
+"""Where run folders lie, as conf/config.yaml says."""
 LINES = 12
 """Of a message of many lines, such as all violations of a plan, so many are said."""
 _SAID = "said on stderr"
+_begun: list[Path] = []
 _finished: list[Path] = []
-"""Folders of the runs that this process has finished."""
+"""Folders of the runs that this process has begun, and of those that it has finished."""
 
 _PACKAGE = Path(__file__).resolve().parent
-CONF = next(folder for folder in (_PACKAGE.parent / "conf", _PACKAGE / "conf") if (folder / "config.yaml").is_file())
-"""The configuration tree: beside the package in a checkout, inside it in a wheel."""
+CONF = next(folder for folder in (_PACKAGE / "conf", _PACKAGE.parent / "conf") if (folder / "config.yaml").is_file())
+"""The configuration tree: inside the package in a wheel, beside it in a checkout. (What lies beside a wheel is not ours.)"""
 
 
 def main() -> None:
@@ -117,7 +121,9 @@ def explain(error: BaseException) -> str:
         return f"{key}: {_one_line(str(cause).splitlines()[0])}"
     if isinstance(error, OSError):
         return _explain_os_error(error)
-    return _one_line(str(error)) or type(error).__name__
+    if isinstance(error, InputError | HydraException | OmegaConfBaseException):
+        return _one_line(str(error)) or type(error).__name__
+    return f"{type(error).__name__}: {_one_line(str(error))} (debug=true shows where)"
 
 
 def options(group: str) -> tuple[str, ...]:
@@ -127,6 +133,7 @@ def options(group: str) -> tuple[str, ...]:
 
 def _run_all() -> None:
     """What the command line asks for; after a sweep also a table of what it made, as far as it came."""
+    _begun.clear()
     _finished.clear()
     try:
         _composed_by_hydra()
@@ -140,9 +147,11 @@ def _run_one(composed: Any) -> None:
     folder = Path(HydraConfig.get().runtime.output_dir)
     try:
         config = freeze(composed)
+        _begin(folder)
         importlib.import_module("wm.pipeline").run(config, folder, neighbours=_neighbours(config, folder))
         _finished.append(folder)
     except Exception as error:
+        _tidy(folder)
         if HydraConfig.get().mode == RunMode.MULTIRUN and not composed.debug:
             _say(f"{folder}: {explain(error)}")  # the others of the sweep go on; Hydra reports only the first failure
             error.add_note(_SAID)
@@ -153,9 +162,27 @@ def _run_one(composed: Any) -> None:
         sys.exit(_exit_code(error))
 
 
+def _begin(folder: Path) -> None:
+    """Raises: ConfigError where an earlier run of this sweep has the folder."""
+    if folder in _begun:
+        raise ConfigError(
+            "an earlier run of this sweep has this folder, which scene, variant and seed name; where something else differs, "
+            "name a folder for each, e.g. 'output=runs/${preset}' or 'output=runs/${hydra:runtime.choices.image}'"
+        )
+    _begun.append(folder)
+
+
+def _tidy(folder: Path) -> None:
+    """Removes the folders that Hydra has made for a run that never came to write anything."""
+    levels = 4 if folder.parts[-4:-3] == (OUTPUTS,) else 1  # of outputs/<scene>/<variant>/<seed> all, if nothing else is there
+    with contextlib.suppress(OSError):  # not empty
+        for level in (folder, *folder.parents)[:levels]:
+            level.rmdir()
+
+
 def _neighbours(config: RunConfig, folder: Path) -> list[Path]:
     """The runs of other variants of the scene with the same seed: outputs/<scene>/*/<seed>."""
-    if config.output is not None or not config.reuse:
+    if config.output is not None or not config.reuse or len(folder.parents) < 2:
         return []
     return sorted(other for other in folder.parents[1].glob(f"*/{config.seed}") if other != folder)
 
@@ -178,7 +205,8 @@ def _explain_os_error(error: OSError) -> str:
 
 
 def _exit_code(error: BaseException) -> int:
-    return BAD_INPUT if isinstance(error, InputError | HydraException | OmegaConfBaseException) else FAILED
+    misplaced = isinstance(error, FileExistsError | NotADirectoryError)
+    return BAD_INPUT if misplaced or isinstance(error, InputError | HydraException | OmegaConfBaseException) else FAILED
 
 
 def _unknown_keys(node: Any, record: type, prefix: str) -> Iterator[str]:

@@ -7,6 +7,9 @@ read-only once made (`dataclasses.replace` makes a changed copy).
 
 from dataclasses import dataclass, field
 
+BESIDE = {"identity": False}
+"""Metadata of a field that changes no stage's result: runs that differ in it alone are the same run."""
+
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class SceneConfig:
@@ -175,7 +178,7 @@ class ImageConfig:
     moved: float = 0.0  # in which one stands elsewhere
     supersampling: int = 2  # geometry samples per pixel side
     texel_size: float = 0.01  # metres between texels of the offline world's surfaces; its light is as much coarser or finer
-    worker: bool = True  # shade in a process of its own, where there is a core for it; changes no byte
+    worker: bool = field(default=True, metadata=BESIDE)  # shade in a process of its own, where there is a core for it
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
@@ -212,7 +215,7 @@ class RunConfig:
     fit: FitSettings = field(default_factory=FitSettings)
     navigation: NavigationSettings = field(default_factory=NavigationSettings)
     evaluate: EvaluateConfig = field(default_factory=EvaluateConfig)
-    report: ReportConfig = field(default_factory=ReportConfig)
+    report: ReportConfig = field(default_factory=ReportConfig, metadata=BESIDE)
     language: LanguageConfig = field(default_factory=LanguageConfig)
     image: ImageConfig = field(default_factory=ImageConfig)
     objects: ObjectsConfig = field(default_factory=ObjectsConfig)
@@ -220,8 +223,11 @@ class RunConfig:
     variant: str = "full"
     preset: str = "standard"
     seed: int = 0
-    output: str | None = None  # run folder; None lets Hydra's outputs/<scene>/<variant>/<seed> stand
-    reuse: bool = True  # take finished stages over from runs of other variants beside this one, where they are the same
-    overwrite: bool = False  # a folder made by another configuration is refused unless this is true
-    workers: int | None = 0  # processes that fit rooms side by side on a CPU; 0: threads, as fast on two cores; None: one a core
-    debug: bool = False  # tracebacks instead of one-line errors
+    output: str | None = field(default=None, metadata=BESIDE)  # run folder; None: Hydra's outputs/<scene>/<variant>/<seed>
+    # take finished stages over from runs of other variants beside this one, where they are the same
+    reuse: bool = field(default=True, metadata=BESIDE)
+    # a folder made by another configuration is refused unless this is true
+    overwrite: bool = field(default=False, metadata=BESIDE)
+    # processes that fit rooms side by side on a CPU; 0: threads, as fast on two cores; None: one a core
+    workers: int | None = field(default=0, metadata=BESIDE)
+    debug: bool = field(default=False, metadata=BESIDE)  # tracebacks instead of one-line errors

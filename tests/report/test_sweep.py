@@ -39,6 +39,14 @@ def test_what_else_differs_names_the_row():
     assert {"full fit.depth_weight=0.7", "full fit.depth_weight=1.5", "depth_only fit.depth_weight=1.5"} <= set(table)
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_run_that_knows_a_key_more_has_a_row_of_its_own(turned):
+    newer = run()
+    newer.config["fit"]["detail"] = 2
+    table = rows(sweep_table([run(), newer][:: -1 if turned else 1]))
+    assert {"full fit.detail=None", "full fit.detail=2"} <= set(table)
+
+
 def test_variants_differ_in_their_own_keys_without_saying_so():
     assert "no_depth_loss" in rows(sweep_table([run(), run("no_depth_loss", weight=0.0)]))
 
@@ -58,6 +66,11 @@ def test_the_command_reads_run_folders(tmp_path, monkeypatch, capsys):
     sweep.main()
     assert rows(capsys.readouterr().out)["full"]["PSNR ↑"] == "25.50 ± 0.50"
     assert len(read_runs([tmp_path / "full/0"])) == 1
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other/metrics.json").write_text("{}")  # somebody else's
+    sweep.main()
+    said = capsys.readouterr()
+    assert f"left out: {tmp_path / 'other'} holds no finished run" in said.err and "25.50" in said.out
     monkeypatch.setattr(sys, "argv", ["sweep", str(tmp_path / "empty")])
     with pytest.raises(SystemExit, match="no finished run under"):
         sweep.main()

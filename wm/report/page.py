@@ -26,7 +26,7 @@ class SheetRow:
 
     name: str
     note: str  # recall and attempts, say
-    condition: np.ndarray | None  # [h, w, 3]
+    condition: np.ndarray  # [h, w, 3]
     generated: np.ndarray  # [h, w, 3]
     splats: np.ndarray  # [h, w, 3]
     splat_depth: np.ndarray  # [h, w] metres
@@ -93,7 +93,7 @@ def render_page(data: ReportData) -> str:
         "sheets": "".join(_sheet(name, rows) for name, rows in data.sheets.items()),
         "range": f"{DEPTH_ERROR_RANGE * 100:.0f}",
     }
-    template = importlib.resources.files("wm.report").joinpath("template.html").read_text()
+    template = importlib.resources.files("wm.report").joinpath("template.html").read_text(encoding="utf-8")
     return string.Template(template).substitute(pick)
 
 
@@ -126,8 +126,8 @@ def _metric_row(data: ReportData, key: str, label: str, form: str, meaning: str,
 
 
 def _sheet(name: str, rows: list[SheetRow]) -> str:
-    def cell(image: np.ndarray | None) -> str:
-        return "<td></td>" if image is None else f'<td><img loading="lazy" src="{data_uri(image, max_width=THUMBNAIL)}"></td>'
+    def cell(image: np.ndarray) -> str:
+        return f'<td><img loading="lazy" src="{data_uri(image, max_width=THUMBNAIL)}"></td>'
 
     body = "".join(
         "<tr>"

@@ -5,6 +5,7 @@
 Runs that differ in nothing but their seed share a row: the mean, and how far the seeds lie from it at most.
 """
 
+import argparse
 import dataclasses
 import json
 import pathlib
@@ -14,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from wm.errors import InputError
 from wm.report.paper import PAPER_ROWS
 
 # key, heading, how a value is written, whether more (+1) or less (-1) is better, 0: neither
@@ -44,12 +46,19 @@ class RunResult:
 
 
 def read_runs(folders: Iterable[pathlib.Path]) -> list[RunResult]:
-    """The runs in these folders, in order. Raises: FileNotFoundError for a folder that holds no finished run."""
-    runs = []
-    for folder in folders:
+    """The runs in these folders, in order. Raises: InputError for a folder that holds no finished run."""
+    return [_read(folder) for folder in folders]
+
+
+def _read(folder: pathlib.Path) -> RunResult:
+    try:
         manifest, metrics = (json.loads((folder / name).read_text()) for name in ("manifest.json", "metrics.json"))
-        runs.append(RunResult(config=manifest["header"]["config"], metrics=metrics))
-    return runs
+        match manifest["header"]["config"]:
+            case {"scene": {"name": str()}, "variant": str(), "seed": int()} as config:
+                return RunResult(config=config, metrics=dict(metrics))
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    raise InputError(f"{folder} holds no finished run: manifest.json and metrics.json belong in it")
 
 
 def sweep_table(runs: Sequence[RunResult]) -> str:
@@ -71,10 +80,11 @@ def _grouped(runs: Sequence[RunResult]) -> dict[str, list[RunResult]]:
     kinds = [(run.config["scene"]["name"],) * several + (run.config["variant"],) for run in runs]
     leaves = [{key: x for key, x in _leaves(run.config).items() if key.partition(".")[0] not in _NAMED} for run in runs]
     firsts = dict(reversed(list(zip(kinds, leaves))))
-    differing = sorted({key for kind, leaf in zip(kinds, leaves) for key in leaf if leaf[key] != firsts[kind].get(key)})
+    pairs = [(leaf, firsts[kind]) for kind, leaf in zip(kinds, leaves)]
+    differing = sorted({key for leaf, first in pairs for key in leaf | first if leaf.get(key) != first.get(key)})
     groups: dict[str, list[RunResult]] = {}
     for run, kind, leaf in zip(runs, kinds, leaves):
-        groups.setdefault(" ".join([*kind, *(f"{key}={leaf[key]}" for key in differing)]), []).append(run)
+        groups.setdefault(" ".join([*kind, *(f"{key}={leaf.get(key)}" for key in differing)]), []).append(run)
     return groups
 
 
@@ -122,11 +132,21 @@ def _aligned(rows: Sequence[Sequence[str]]) -> str:
 
 def main() -> None:
     """The command line: every finished run under the folders it is given."""
-    roots = [pathlib.Path(argument) for argument in sys.argv[1:]] or [pathlib.Path("outputs")]
+    parser = argparse.ArgumentParser(prog="python -m wm.report.sweep", description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("folders", nargs="*", type=pathlib.Path, default=[pathlib.Path("outputs")], help="with runs below")
+    roots = parser.parse_args().folders
     folders = [path.parent for root in roots for path in sorted(root.rglob("metrics.json"))]
     if not folders:
         sys.exit(f"wm: no finished run under {', '.join(map(str, roots))}: a run folder holds metrics.json")
-    print(sweep_table(read_runs(folders)))
+    runs = []
+    for folder in folders:
+        try:
+            runs += read_runs([folder])
+        except InputError as error:
+            print(f"wm: left out: {error}", file=sys.stderr)
+    if not runs:
+        sys.exit(1)
+    print(sweep_table(runs))
 
 
 if __name__ == "__main__":

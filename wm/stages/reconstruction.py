@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import pathlib
 from collections.abc import Iterator, Mapping, Sequence
 
 import jax
@@ -36,7 +37,7 @@ class Reconstruction:
     """The fitted scene."""
 
     rooms: tuple[Gaussians, ...]  # by room, NumPy
-    history: tuple[dict, ...]  # error against wall-clock; empty if the fit was taken from a folder without its history
+    history: tuple[dict, ...]  # error against wall-clock; empty where the folder has none, or a damaged one
     key: str
     renderer: SceneRenderer  # of the rooms
 
@@ -48,12 +49,11 @@ def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, fitt
         key = job.key("reconstruct", painted.key, config.fit, config.raster)
         if not job.folder.has("reconstruct", key):
             _fit(job, scene, painted, heldout, fitters, key)
-        history = job.folder.path / HISTORY
         rooms = _split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes()))
         return Reconstruction(
             rooms=rooms,
             renderer=SceneRenderer(rooms, config.raster, capacity=fitters.capacity),
-            history=tuple(json.loads(history.read_text())) if history.is_file() else (),
+            history=_read_history(job.folder.path / HISTORY),
             key=key,
         )
 
@@ -77,6 +77,17 @@ def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, g
         detailed=gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE),
         sees=tuple(int(room) for room in sees),
     )
+
+
+def _read_history(file: pathlib.Path) -> tuple[dict, ...]:
+    """It depends on the clock, so no digest guards it."""
+    try:
+        return tuple(json.loads(file.read_text()))
+    except FileNotFoundError:
+        return ()
+    except (ValueError, TypeError):
+        print(f"{file}: damaged; the report goes without its curve")
+        return ()
 
 
 def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, fitters: Fitters, key: str) -> None:
