@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.synth.alignment import disagreement
+from wm.synth.alignment import align_depth, disagreement
 
 SHAPE = (60, 90)
 
@@ -25,6 +25,25 @@ def apart(scaffold, estimate, radius=2, tolerance=0.1):
 @given(st.floats(0.05, 20), st.floats(-10, 10))
 def test_scale_and_shift_are_not_known_and_do_not_matter(scale, shift):
     assert not apart(room(), scale * room() + shift).any()
+
+
+@given(st.floats(0.05, 20), st.floats(-10, 10), st.sampled_from([lambda z: -z, lambda z: 1 / z, lambda z: -np.log(z)]))
+def test_front_and_back_are_not_confused(scale, shift, falling):
+    """No scale is negative: of an estimate that falls where the depth rises only the depth's median is left."""
+    depth = room().ravel()
+    assert align_depth(scale * falling(depth) + shift, depth) == (0.0, np.median(depth))
+    assert apart(room(), scale * falling(room()) + shift)[32:43, 22:33].all()  # the chair, but for its silhouette
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(2, 200))
+def test_an_alignment_is_no_worse_than_the_depths_median(seed, count):
+    """Whatever the estimate: the least sum of absolute differences is at most that of scale 0."""
+    rng = np.random.default_rng(seed)
+    estimate, depth = rng.normal(size=count), rng.uniform(1, 5, count)
+    scale, shift = align_depth(estimate, depth)
+    assert scale >= 0
+    differences = np.abs(scale * estimate + shift - depth).sum()
+    assert differences <= np.abs(depth - np.median(depth)).sum() + 2e-3 * count * depth.max()  # absolute to a thousandth
 
 
 @pytest.mark.parametrize("drawn", [None, (30, 60), (5, 20)])

@@ -16,7 +16,7 @@ from wm.geometry.raycast import build_ray_scene, cast
 from wm.geometry.structure import build_structure
 from wm.geometry.texture import accumulate
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
-from wm.synth.attempt import attempt_seed, binding_edges
+from wm.synth.attempt import as_bytes, attempt_seed, binding_edges
 from wm.synth.backends import Condition, ImageResult
 from wm.synth.paint import PaintSettings, Scaffold, paint_scene, scene_depth_range
 from wm.types import View
@@ -246,6 +246,33 @@ def test_without_depth_estimates_nothing_passes_and_nothing_is_used():
     assert not any(painted.mask.any() or painted.accepted for painted in kept.values())
     off = dataclasses.replace(SETTINGS, verify=VerifySettings(enabled=False))
     assert paint(depth=Blind(), views=VIEWS[:3], settings=off)[0].yield_share == 1.0
+
+
+@dataclasses.dataclass
+class Unsure(Estimator):
+    """An estimator that cannot tell the depth of some images: it returns `untold` for those, by their order."""
+
+    untold: np.ndarray | None
+    calls: tuple[int, ...]
+    asked: int = 0
+
+    def estimate(self, result, *, seed):
+        self.asked += 1
+        return self.untold if self.asked - 1 in self.calls else super().estimate(result, seed=seed)
+
+
+@pytest.mark.parametrize("untold", [None, np.full((64, 96), np.nan, np.float32)], ids=["none", "nan"])
+@pytest.mark.parametrize("told", [0, 1, 2])
+def test_of_attempts_that_failed_one_is_kept_whose_depth_can_be_told(untold, told):
+    """Where no edge binds, recall does not apply: an image without an estimate came nearest by default, and the view was lost."""
+    limit = SETTINGS.verify.max_attempts
+    edgeless = view("hall/bootstrap0", "bootstrap", 0, [1.3, 2.1, 1.6], [-1.7, 1.6, 1.6])
+    painter = Painter(wrong=tuple(attempt_seed(5, 0, attempt) for attempt in range(limit)))
+    depth = Unsure(untold, tuple(attempt for attempt in range(limit) if attempt != told))
+    kept = paint(painter, depth, views=(edgeless,))[1]["hall/bootstrap0"]
+    assert (kept.accepted, kept.attempts, kept.recall, depth.asked) == (False, limit, None, limit)
+    assert 0 < kept.mask.mean() < 1
+    np.testing.assert_array_equal(kept.rgb, as_bytes(painter.generate(painter.requests[told]).rgb))
 
 
 def test_a_variant_is_conditioned_on_its_own_scaffold():

@@ -112,6 +112,15 @@ def test_a_true_image_passes_both():
     assert (verdict.passed, verdict.recall, verdict.disagreement) == (True, 1.0, 0.0)
 
 
+@pytest.mark.parametrize("falling", [lambda depth: -depth, lambda depth: 1 / depth], ids=["negated", "disparity"])
+def test_front_and_back_swapped_does_not_pass(falling):
+    """Its edges are all in their places; only held to depth can it be told."""
+    depth, edges = step()
+    verdict = verify(edges, falling(depth), VerifySettings(), depth=depth)
+    assert (verdict.passed, verdict.recall) == (False, 1.0)
+    assert verdict.disagreement is not None and verdict.disagreement > 0.2
+
+
 @pytest.mark.parametrize("estimate", [None, np.full(SHAPE, np.nan)])
 def test_held_to_depth_it_still_fails_closed(estimate):
     depth, edges = step()

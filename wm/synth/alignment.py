@@ -17,8 +17,9 @@ POINTS = 20_000
 def align_depth(estimate: Float[np.ndarray, "n"], depth: Float[np.ndarray, "n"]) -> tuple[float, float]:
     """(scale, shift) that brings an estimate to the depth with the least sum of absolute differences.
 
-    By iteratively reweighted least squares, so that a wrong part of the image does not bend the rest. A constant estimate has
-    scale 0.
+    By iteratively reweighted least squares, so that a wrong part of the image does not bend the rest. The scale is never
+    negative: what is nearer in the estimate is nearer. An estimate that falls where the depth rises (disparity, or front and back
+    confused) tells no more than a constant one: its scale is 0, its shift the median of the depth.
     """
     x, y = estimate.astype(np.float64), depth.astype(np.float64)
     floor = 1e-3 * max(float(np.abs(y).max()), np.finfo(np.float64).tiny)
@@ -28,8 +29,9 @@ def align_depth(estimate: Float[np.ndarray, "n"], depth: Float[np.ndarray, "n"])
         mean_x, mean_y = np.average(x, weights=weight), np.average(y, weights=weight)
         variance = np.average((x - mean_x) ** 2, weights=weight)
         covariance = np.average((x - mean_x) * (y - mean_y), weights=weight)
-        scale = float(covariance / variance) if variance > 0 else 0.0
-        shift = float(mean_y - scale * mean_x)
+        rising = covariance > 0 and variance > 0
+        scale = float(covariance / variance) if rising else 0.0
+        shift = float(mean_y - scale * mean_x) if rising else float(np.median(y))
         weight = 1 / np.maximum(np.abs(scale * x + shift - y), floor)
     return scale, shift
 

@@ -13,7 +13,7 @@ from wm.schema import VerifySettings
 from wm.synth.agreement import agreement
 from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest
 from wm.synth.canny import depth_edges
-from wm.synth.verify import dilation_radius, verify
+from wm.synth.verify import Verdict, dilation_radius, verify
 from wm.types import GBuffer
 
 
@@ -60,7 +60,7 @@ def paint_view(
     edges = binding_edges(shown, request.condition, settings)
     held = shown.depth if request.condition.objects == "textured" else None
     condition = as_bytes(request.condition.rgb)
-    best: tuple[float, PaintedView, np.ndarray | None] | None = None
+    best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
     for attempt in range(max(settings.max_attempts, 1)):
         request = dataclasses.replace(request, seed=attempt_seed(*identity, attempt))
         result = image.generate(request)
@@ -80,12 +80,19 @@ def paint_view(
         )
         if verdict.passed:
             return painted
-        score = (-1.0 if verdict.recall is None else verdict.recall) - (verdict.disagreement or 0.0)
-        if best is None or score > best[0]:
-            best = (score, painted, estimate)
+        near = _nearness(estimate, verdict)
+        if best is None or near > best[0]:
+            best = (near, painted, estimate)
     assert best is not None
     mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
     return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
+
+
+def _nearness(estimate: np.ndarray | None, verdict: Verdict) -> tuple[bool, float, float]:
+    """By what of the attempts that failed one is kept: that its depth can be told, without which none of it can be used, then
+    its recall (where that does not apply nothing is missing), then the least disagreement."""
+    told = estimate is not None and bool(np.isfinite(estimate).any())
+    return told, 1.0 if verdict.recall is None else verdict.recall, -(verdict.disagreement or 0.0)
 
 
 def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Bool[np.ndarray, "h w"]:

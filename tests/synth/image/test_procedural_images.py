@@ -9,7 +9,7 @@ from tests.synth.procedural.boxes import COARSE, furnished
 from wm.geometry.camera import make_camera
 from wm.schema import ImageConfig
 from wm.synth.backends import Condition, ImageRequest, close_backend, make_backend
-from wm.synth.image.imagination import SCENE, Imagination, imagined
+from wm.synth.image.imagination import SCENE, Imagination, imagined_scene, imagined_style
 from wm.synth.image.procedural import ProceduralImages, Scenery, lowpass
 from wm.synth.procedural.style import style_of
 from wm.synth.procedural.worker import Recipe, WorkerWorld
@@ -26,7 +26,7 @@ VIEW = View(look_from([0.4, 0.5, 1.5], [2.4, 2.0, 0.9]), 0, "perimeter", "living
 
 @pytest.fixture(scope="module")
 def shot():
-    return make_scenery(SCENE).world.shoot(VIEW.camera)
+    return scene().shoot(VIEW.camera)
 
 
 def request(shot, *, rgb=None, known=0.0, depth=None, seed=3, painted=False, view=VIEW, **condition):
@@ -43,20 +43,24 @@ def request(shot, *, rgb=None, known=0.0, depth=None, seed=3, painted=False, vie
 WORLDS = {}  # baked once for the module
 
 
-def make_scenery(which):
+def make_world(context, which):
     if which not in WORLDS:
-        context, style = imagined(furnished(), which)
+        style = imagined_style(furnished(), which)
         WORLDS[which] = Scenery(context, World(context, settings=COARSE, style=style))
-    return WORLDS[which]
+    return WORLDS[which].world
 
 
-def model(drift=0.0, **strengths):
-    return ProceduralImages(make_scenery=make_scenery, config=ImageConfig(drift=drift, **strengths))
+def scene():
+    return make_world(furnished(), SCENE)
+
+
+def model(drift=0.0, make_world=make_world, **strengths):
+    return ProceduralImages(furnished(), make_world, ImageConfig(drift=drift, **strengths))
 
 
 def test_closing_ends_the_processes_of_its_worlds():
     recipe = Recipe(furnished(), supersampling=1, settings=COARSE)
-    images = ProceduralImages(lambda which: Scenery(furnished(), WorkerWorld(recipe, lanes=1)), ImageConfig())
+    images = model(make_world=lambda context, which: WorkerWorld(recipe, lanes=1))
     world = images.scenery(SCENE).world
     assert world.shoot(VIEW.camera).rgb.shape == (48, 72, 3)
     close_backend(images)
@@ -167,7 +171,7 @@ def test_things_that_are_shown_stay_where_walls_are_finished_anew(shot):
 
 def test_a_box_is_filled_with_something_else_that_stays_within_it(shot):
     boxed = [model().generate(request(shot, seed=seed, objects="boxes", painted=True)) for seed in range(6)]
-    mine = make_scenery(SCENE).context.objects
+    mine = furnished().objects
     for result in boxed:
         assert not set(result.drawn_labels) & {"table", "sofa", "lamp"}
         assert (result.drawn_depth >= shot.gbuffer.depth - 1e-4).all()  # the scene's own things are boxes and fill theirs
@@ -185,7 +189,24 @@ def test_without_objects_in_the_condition_the_room_is_furnished_anew(shot):
     assert len({result.drawn_depth.tobytes() for result in bare}) > 1
     first = [model().generate(request(shot, seed=seed, objects="none", view=middle)) for seed in range(6)]  # bootstrap views
     assert [one.drawn_depth.tobytes() for one in first] == [one.drawn_depth.tobytes() for one in bare]
-    assert all((one.drawn_depth != make_scenery(SCENE).world.shoot(middle.camera).gbuffer.depth).any() for one in first)
+    assert all((one.drawn_depth != scene().shoot(middle.camera).gbuffer.depth).any() for one in first)
+
+
+def test_a_world_is_made_only_if_a_view_is_shown_it_and_its_furniture_once_for_all_finishes(shot):
+    """Each may be a process of its own; which of them a view is shown is told by where their furniture stands."""
+    made = {}
+
+    def noted(context, which):
+        made[which] = context
+        return make_world(context, which)
+
+    images, middle = model(make_world=noted), dataclasses.replace(VIEW, camera=look_from([1.9, 1.3, 1.5], [0.2, 0.2, 0.5]))
+    for count, settled in enumerate((True, False), start=1):  # in the scene's finish, in another
+        images.generate(request(shot, objects="none", view=middle, wall_texture=settled))
+        assert len(made) == count
+    (first, one), (second, other) = made.items()
+    assert first.surfaces != second.surfaces and first.furniture == second.furniture
+    assert one is other
 
 
 def test_without_imaginations_everything_is_the_scene(shot):
@@ -195,9 +216,9 @@ def test_without_imaginations_everything_is_the_scene(shot):
 
 
 def test_the_scene_is_the_scene_and_each_other_world_its_own():
-    context, style = imagined(furnished(), SCENE)
-    assert context is furnished()
-    assert style == style_of(context.theme)
-    other = [imagined(furnished(), Imagination(surfaces=k))[1].surfaces("library") for k in range(1, 6)]
+    assert imagined_scene(furnished(), SCENE) is furnished()
+    style = imagined_style(furnished(), SCENE)
+    assert style == style_of(furnished().theme)
+    other = [imagined_style(furnished(), Imagination(surfaces=k)).surfaces("library") for k in range(1, 6)]
     assert all(finish.wall.material != style.surfaces("library").wall.material for finish in other)
     assert len(set(other)) == 5

@@ -7,11 +7,14 @@ import numpy as np
 import pytest
 
 from tests.synth.procedural.boxes import furnished
-from wm.geometry import assemble_scene, build_ray_scene, cast
+from wm.geometry import assemble_scene, build_ray_scene, cast, place_cameras
 from wm.geometry.camera import make_camera
-from wm.schema import ImageConfig
-from wm.synth.image.violations import KINDS, draw_violation, violation
+from wm.schema import CameraSettings, DepthConfig, ImageConfig, VerifySettings
+from wm.synth.backends import ImageResult, make_backend
+from wm.synth.canny import depth_edges
+from wm.synth.image.violations import KINDS, PLAIN, draw_violation, violation
 from wm.synth.procedural.edit import Edit, edited_mesh
+from wm.synth.verify import verify
 from wm.types import OUTSIDE, View
 
 CAMERA = make_camera(np.array([0.4, 0.5, 1.5]), np.array([2.6, 2.0, 0.8]), width=96, height=64, fov_deg=80.0)
@@ -72,6 +75,35 @@ def test_what_is_added_is_there_twice(seed):
     found = wrong("added", seed)
     depth, _ = drawn(found.edit)
     assert (depth <= seen()[1].depth + 1e-5).all()
+
+
+def verdict(view, mesh, gbuffer, wrong, seed):
+    """Of an image with a violation or none: whether it counts as one, as in experiments/verification, and whether it passes."""
+    settings = VerifySettings()
+    depth = gbuffer.depth if wrong is None else cast(edited_mesh(mesh, furnished().plan, wrong.edit)[0], view.camera).depth
+    changed = np.abs(depth - gbuffer.depth) > settings.tolerance * gbuffer.depth
+    image = ImageResult(rgb=np.zeros((*depth.shape, 3), np.float32), drawn_depth=depth)
+    estimate = make_backend("depth", DepthConfig()).estimate(image, seed=seed)
+    edges = depth_edges(gbuffer.depth, gbuffer.hit, low=settings.low, high=settings.high)
+    return changed.mean() >= PLAIN, verify(edges, estimate, settings, depth=gbuffer.depth).passed
+
+
+def test_verification_catches_violations_and_accepts_good_images():
+    """From every view of the rooms, one of each kind; experiments/verification measures it on whole scenes."""
+    mesh, scene = seen()[0], build_ray_scene(seen()[0])
+    views = place_cameras(furnished().plan, scene, CameraSettings(width=344, height=192, perimeter=6, overhead=3))
+    good, counted = [], {kind: [] for kind in KINDS}
+    for k, view in enumerate(views):
+        gbuffer = cast(scene, view.camera)
+        thing = np.append(mesh.face_object, np.int32(OUTSIDE))[gbuffer.face]
+        good.append(verdict(view, mesh, gbuffer, None, k)[1])
+        for kind in KINDS:
+            found = violation(kind, furnished(), view, gbuffer, thing, np.random.default_rng(k))
+            counts, passes = (False, True) if found is None else verdict(view, mesh, gbuffer, found, k)
+            counted[kind] += [passes] if counts else []
+    assert len(good) >= 20 and all(good)
+    assert all(len(passed) >= 5 for passed in counted.values())
+    assert np.mean([passes for passed in counted.values() for passes in passed]) <= 0.05
 
 
 def test_shares_are_shares():

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wm.synth.procedural.finish import MATERIALS, SLOTS
-from wm.synth.procedural.room_type import ROOM_WORDS, room_type
+from wm.synth.procedural.room_type import ROOM_TYPES, room_type
 from wm.synth.procedural.style import style_of
 
 FAMILY = {
@@ -40,7 +40,7 @@ def test_words_select_the_family(theme):
 def test_every_text_gives_a_complete_style(theme):
     style = style_of(theme)
     assert [slot for slot, _ in style.slots] == list(SLOTS)
-    surfaces = [style.surfaces(kind) for kind in (*ROOM_WORDS, "other", "no such type")]
+    surfaces = [style.surfaces(kind) for kind in (*ROOM_TYPES.values(), "no such type")]
     finishes = [finish for _, finish in style.slots]
     finishes += [f for s in surfaces for f in (s.wall, s.floor, s.ceiling, s.trim, s.wainscot) if f is not None]
     for finish in finishes:

@@ -44,6 +44,17 @@ def test_what_goes_wrong_there_is_raised_here_and_it_goes_on(worker):
     assert worker.shoot(camera(0.4)).rgb.shape == (16, 24, 3)
 
 
+def test_why_no_world_could_be_made_is_raised_at_every_request():
+    broken = dataclasses.replace(furnished().objects[1], faces=np.full((12, 3), 8, np.int32))  # of vertices 0..7
+    context = dataclasses.replace(furnished(), objects=(furnished().objects[0], broken))
+    world = WorkerWorld(dataclasses.replace(RECIPE, context=context), lanes=2)
+    for _ in range(3):  # each lane, and one again
+        with pytest.raises(ValueError, match=r"object 1 \(sofa\)") as raised:
+            world.shoot(camera(0.4))
+        assert any("in a process of its own" in note for note in raised.value.__notes__)
+    world.close()
+
+
 def test_a_worker_that_is_gone_is_named():
     world = WorkerWorld(RECIPE, lanes=1)
     world._process.popen.kill()

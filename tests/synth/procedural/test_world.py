@@ -1,11 +1,16 @@
 """Laws of the exact world: repeatable, whatever was asked before; legible; objects under their own light."""
 
+import dataclasses
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.synth.procedural.boxes import COARSE, furnished
 from wm.geometry.camera import make_camera
-from wm.synth.procedural.world import World
+from wm.geometry.mesh import assemble_scene
+from wm.synth.procedural.world import World, surface_ids
 
 
 def camera(width=48, height=32, eye=(0.4, 0.5, 1.5), target=(2.4, 2.0, 0.9)):
@@ -64,3 +69,21 @@ def test_supersampling_only_touches_edges():
     fine = World(furnished(), settings=COARSE, supersampling=2).shoot(camera()).rgb
     changed = np.abs(plain - fine).max(axis=2) > 0
     assert 0 < changed.mean() < 0.6
+
+
+@given(st.lists(st.integers(1, 200), max_size=4), st.integers(0, 2**32 - 1))
+def test_a_surface_has_a_number_of_its_own(slots, seed):
+    """However many slots a thing has: a large bookshelf has 146, and the thing after it has others."""
+    rng, table = np.random.default_rng(seed), furnished().objects[0]
+    objects = [
+        dataclasses.replace(table, slots=("wood",) * count, face_slot=rng.choice([0, count - 1, count // 2], 12).astype(np.int32))
+        for count in slots
+    ]
+    mesh = assemble_scene(furnished().structure, objects)
+    structure = mesh.face_object < 0
+    slot = np.concatenate([np.zeros(structure.sum(), int), *(thing.face_slot for thing in objects)])
+    room, kind = (np.where(structure, labels, 0) for labels in (mesh.face_room, mesh.face_kind))
+    _, meant = np.unique(np.stack([mesh.face_object, slot, room, kind]), axis=1, return_inverse=True)
+    pairs = np.unique(np.stack([surface_ids(mesh, objects), meant.ravel()]), axis=1)
+    assert len(np.unique(pairs[0])) == len(np.unique(pairs[1])) == pairs.shape[1]
+    assert pairs[0].min() >= 0  # a miss is -1

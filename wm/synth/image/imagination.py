@@ -47,15 +47,18 @@ class Imagination:
 SCENE = Imagination()
 
 
-def imagined(context: SceneContext, which: Imagination) -> tuple[SceneContext, Style]:
-    """The scene and the style of a world; of `SCENE` the scene itself."""
+def imagined_scene(context: SceneContext, which: Imagination) -> SceneContext:
+    """The scene of a world, which its finish does not change; without other furniture the scene itself."""
+    if not which.furniture:
+        return context
+    things = boxed_furniture if which.boxed else other_furniture
+    return dataclasses.replace(context, objects=things(context, which.furniture))
+
+
+def imagined_style(context: SceneContext, which: Imagination) -> Style:
+    """The style that a world is finished in, which its furniture does not change."""
     style = style_of(context.theme)
-    if which.surfaces:
-        style = refinished(style, _dice(context, which.surfaces, 1))
-    if which.furniture:
-        things = boxed_furniture if which.boxed else other_furniture
-        context = dataclasses.replace(context, objects=things(context, which.furniture))
-    return context, style
+    return refinished(style, _dice(context, which.surfaces, 1)) if which.surfaces else style
 
 
 def refinished(style: Style, rng: np.random.Generator) -> Style:

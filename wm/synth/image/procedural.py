@@ -28,7 +28,7 @@ from wm.geometry.camera import camera_center, camera_rays
 from wm.host import cores
 from wm.schema import ImageConfig
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
-from wm.synth.image.imagination import SCENE, Imagination, imagined
+from wm.synth.image.imagination import SCENE, Imagination, imagined_scene, imagined_style
 from wm.synth.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
 from wm.synth.image.violations import Violation, draw_violation
 from wm.synth.procedural.room import bake_settings
@@ -64,14 +64,16 @@ class Scenery:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ProceduralImages:
-    """The backend. A world is made when a view first needs it, and its rooms are dressed and lit when one first sees them."""
+    """The backend. A world is made when a view first shows it, and its rooms are dressed and lit when one first sees them."""
 
-    make_scenery: Callable[[Imagination], Scenery]
+    scene: SceneContext
+    make_world: Callable[[SceneContext, Imagination], World | WorkerWorld]  # of an imagined scene, in its finish
     config: ImageConfig
     _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
     _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
+    _scenes: dict[tuple[int, bool], SceneContext] = dataclasses.field(default_factory=dict)  # by what tells furniture apart
     _sceneries: dict[Imagination, Scenery] = dataclasses.field(default_factory=dict)
-    _lock: threading.Lock = dataclasses.field(default_factory=threading.Lock)
+    _lock: threading.RLock = dataclasses.field(default_factory=threading.RLock)
     _left_open: threading.Event = dataclasses.field(default_factory=threading.Event)  # by some condition so far
 
     def prefetch(self, views: Sequence[View]) -> None:
@@ -106,7 +108,8 @@ class ProceduralImages:
         """A world, made now if it is not there yet."""
         with self._lock:
             if which not in self._sceneries:
-                self._sceneries[which] = self.make_scenery(which)
+                context = self._imagined(which)
+                self._sceneries[which] = Scenery(context, self.make_world(context, which))
             return self._sceneries[which]
 
     def close(self) -> None:
@@ -130,10 +133,18 @@ class ProceduralImages:
             which = Imagination(surfaces=surfaces, furniture=int(first[0]), boxed=True)
         else:
             rooms = [Imagination(surfaces=surfaces, furniture=int(k)) for k in first]
-            which = max(rooms, key=lambda one: min(_air(self.scenery(one).context, request.view), ELBOW_ROOM))
+            which = max(rooms, key=lambda one: min(_air(self._imagined(one), request.view), ELBOW_ROOM))
         if which != SCENE:
             self._left_open.set()
         return which
+
+    def _imagined(self, which: Imagination) -> SceneContext:
+        """The scene of a world, furnished now if it is not yet. Which world a view is shown is chosen by it: no world is made."""
+        with self._lock:
+            furniture = (which.furniture, which.boxed)
+            if furniture not in self._scenes:
+                self._scenes[furniture] = imagined_scene(self.scene, which)
+            return self._scenes[furniture]
 
     def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
         rng = np.random.default_rng(_stream(request.seed, 0xBAD))
@@ -175,12 +186,12 @@ def make(config: ImageConfig, context: SceneContext) -> ProceduralImages:
     settings = bake_settings(config.texel_size)
     apart = config.worker and cores() > 1 and os.name == "posix"
 
-    def make_scenery(which: Imagination) -> Scenery:
-        scene, style = imagined(context, which)
+    def make_world(scene: SceneContext, which: Imagination) -> World | WorkerWorld:
+        style = imagined_style(context, which)
         recipe = Recipe(scene, supersampling=config.supersampling, settings=settings, style=style)
-        return Scenery(scene, WorkerWorld(recipe, lanes=SHOTS_AT_ONCE) if apart else recipe.make())
+        return WorkerWorld(recipe, lanes=SHOTS_AT_ONCE) if apart else recipe.make()
 
-    return ProceduralImages(make_scenery=make_scenery, config=config)
+    return ProceduralImages(scene=context, make_world=make_world, config=config)
 
 
 def lowpass(image: Float[np.ndarray, "h w c"], weight: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w c"]:

@@ -27,7 +27,8 @@ _FRIENDS = {
     frozenset(pair)
     for pair in (
         ("kitchen", "dining"), ("kitchen", "living"), ("living", "dining"), ("living", "conservatory"), ("living", "library"),
-        ("dining", "conservatory"), ("dining", "great hall"), ("library", "study"), ("living", "leisure"), ("hall", "living"),
+        ("dining", "conservatory"), ("dining", "great hall"), ("library", "study"), ("living", "leisure"), ("living", "ballroom"),
+        ("hall", "living"),
     )
 }  # fmt: skip
 _JOINED = 0.7  # probability that such a pair is

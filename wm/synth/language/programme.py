@@ -7,6 +7,7 @@ import unicodedata
 import numpy as np
 
 from wm.synth.language.building import Building
+from wm.synth.room_names import room_sort
 
 CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private", "wet", "service"
 
@@ -15,7 +16,7 @@ CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private",
 class Kind:
     """A kind of room: floor area range in square metres, zone, and rank from the front of the house (0) to its back."""
 
-    name: str
+    name: str  # a sort of wm.synth.room_names: there is one kind for each
     area: tuple[float, float]
     zone: str
     rank: float
@@ -34,40 +35,18 @@ _KINDS = {
         Kind("kitchen", (12.0, 20.0), PUBLIC, 3.0),
         Kind("conservatory", (16.0, 28.0), PUBLIC, 2.0),
         Kind("leisure", (18.0, 28.0), PUBLIC, 4.0),
+        Kind("ballroom", (18.0, 28.0), PUBLIC, 4.0),
         Kind("library", (18.0, 28.0), PUBLIC, 5.0),
         Kind("workshop", (16.0, 26.0), PUBLIC, 5.0),
+        Kind("studio", (16.0, 26.0), PUBLIC, 5.0),
         Kind("study", (10.0, 15.0), PRIVATE, 6.0),
         Kind("bedroom", (12.0, 20.0), PRIVATE, 7.0),
         Kind("bathroom", (5.0, 9.0), WET, 8.0),
         Kind("service", (5.0, 8.0), SERVICE, 3.5),
+        Kind("room", (14.0, 22.0), PUBLIC, 4.0),
         Kind("other", (14.0, 22.0), PUBLIC, 4.0),
     )
 }
-
-# The last word that says what a room is decides ("hall bathroom" is a bathroom); phrases come before words.
-_PHRASES = {
-    "great hall": "great hall", "grand hall": "great hall", "throne room": "great hall", "dining hall": "dining",
-    "winter garden": "conservatory", "billiard room": "leisure", "guest room": "bedroom", "guest suite": "bedroom",
-    "powder room": "bathroom", "utility room": "service", "cloak room": "service", "family room": "living",
-}  # fmt: skip
-_WORDS = {
-    "corridor": "corridor hallway passage passageway landing",
-    "hall": "hall foyer lobby vestibule entry entrance entryway rotunda",
-    "gallery": "gallery arcade colonnade",
-    "atrium": "atrium courtyard patio court cloister peristyle",
-    "living": "living lounge sitting salon parlour parlor drawing sunken",
-    "dining": "dining refectory triclinium breakfast",
-    "kitchen": "kitchen kitchenette galley scullery",
-    "conservatory": "conservatory sunroom greenhouse orangery veranda solarium terrace aquarium garden",
-    "leisure": "music ballroom game games billiard theatre theater cinema gym chapel playroom",
-    "library": "library archive reading",
-    "workshop": "workshop studio laboratory lab observatory atelier",
-    "study": "study office den nook snug",
-    "bedroom": "bedroom chamber nursery dormitory suite cubiculum bed",
-    "bathroom": "bathroom bath bathhouse washroom wc toilet shower ensuite thermae spa lavatory restroom",
-    "service": "pantry larder laundry utility closet storage store storeroom cellar mudroom dressing wardrobe cloakroom",
-}
-_WORD_KIND = {word: kind for kind, words in _WORDS.items() for word in words.split()}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -81,14 +60,8 @@ class Space:
 
 
 def kind_of(room: str) -> Kind:
-    """The kind a room's name speaks of; "other" (a public room of middling size) where it speaks of none."""
-    words = re.findall(r"[a-z]+", room.lower())
-    for end in range(len(words), 0, -1):
-        phrase = " ".join(words[max(end - 2, 0) : end])
-        name = _PHRASES.get(phrase) or _WORD_KIND.get(words[end - 1])
-        if name:
-            return _KINDS[name]
-    return _KINDS["other"]
+    """The kind a room's name speaks of; a public room of middling size where it speaks of none."""
+    return _KINDS[room_sort(room)]
 
 
 def read_programme(rooms: list[str], building: Building, rng: np.random.Generator) -> list[Space]:

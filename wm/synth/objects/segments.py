@@ -26,7 +26,7 @@ def tidy_segments(segments: list[Segment], depth: Float[np.ndarray, "h w"], *, m
       depth: z-depth of the image, metres.
       min_area: share of the image below which a segment is discarded.
     """
-    least = min_area * depth.size
+    least = max(min_area * depth.size, 1.0)
     kept = [segment for segment in segments if segment.mask.sum() >= least and not is_structure(segment.label)]
     kept = _merged(sorted(kept, key=_rank))
     parts = [part for segment in kept for part in _split(segment, depth, least)]
@@ -60,7 +60,7 @@ def _merged(segments: list[Segment]) -> list[Segment]:
 def _split(segment: Segment, depth: np.ndarray, least: float) -> list[Segment]:
     """The components of a segment, those together that something nearer may part; a plural (curtains) is one all the same."""
     if is_plural(segment.label):
-        return [segment]
+        return [segment] if segment.mask.sum() >= least else []
     labels = np.zeros(segment.mask.shape, np.int32)
     ndimage.label(segment.mask, np.ones((3, 3)), output=labels)
     sizes = np.bincount(labels.ravel())[1:]

@@ -36,7 +36,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     """Everything in one room.
 
     Args:
-      kind: room type, a key of room_type.ROOM_WORDS or "other".
+      kind: room type, a value of room_type.ROOM_TYPES.
       density: 0..1, the share of the optional pieces that are tried.
     """
     rng = np.random.default_rng(np.random.SeedSequence([seed, room, 4]))

@@ -73,11 +73,15 @@ def _asked(lane: Connection, question: tuple[Camera, Edit | None]) -> Any:
 
 
 def serve(pipes: list[Connection]) -> None:
-    """Answers until every pipe is closed."""
+    """Answers until every pipe is closed; of a recipe that no world can be made from, with the error."""
     try:
-        world = pipes[0].recv().make()
+        recipe = pipes[0].recv()
     except EOFError:
         return
+    try:
+        world: World | BaseException = recipe.make()
+    except Exception as error:
+        world = portable(error)
     threads = [threading.Thread(target=_serve_lane, args=(world, pipe)) for pipe in pipes]
     for thread in threads:
         thread.start()
@@ -85,17 +89,20 @@ def serve(pipes: list[Connection]) -> None:
         thread.join()
 
 
-def _serve_lane(world: World, pipe: Connection) -> None:
+def _shot(world: World, camera: Camera, edit: Edit | None) -> Shot | BaseException:
+    try:
+        return world.shoot(camera, edit)
+    except Exception as error:
+        return portable(error)
+
+
+def _serve_lane(world: World | BaseException, pipe: Connection) -> None:
     while True:
         try:
             camera, edit = pipe.recv()
         except EOFError:
             return
         try:
-            answer: Shot | BaseException = world.shoot(camera, edit)
-        except Exception as error:
-            answer = portable(error)
-        try:
-            pipe.send(answer)
+            pipe.send(world if isinstance(world, BaseException) else _shot(world, camera, edit))
         except OSError:
             return

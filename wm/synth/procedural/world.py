@@ -9,8 +9,10 @@ import collections
 import copy
 import dataclasses
 import threading
+from collections.abc import Sequence
 
 import numpy as np
+from jaxtyping import Int
 
 from wm.geometry.camera import camera_center, camera_rays
 from wm.geometry.mesh import assemble_scene
@@ -24,7 +26,7 @@ from wm.synth.procedural.pieces import look
 from wm.synth.procedural.pyramid import sample_pyramid
 from wm.synth.procedural.room import BakedRoom, bake_room
 from wm.synth.procedural.style import style_of
-from wm.types import OUTSIDE, Camera, GBuffer
+from wm.types import OUTSIDE, Camera, GBuffer, Mesh, SceneObject, SurfaceKind
 
 KEPT = 32
 """Rooms kept baked; the least recently seen go first."""
@@ -62,7 +64,7 @@ class World:
         self.mesh = assemble_scene(context.structure, context.objects)
         self._scene = self._lit = build_ray_scene(self.mesh)
         self._sun = sun_direction(self.mesh, self._style.light)
-        self._surface = self._surface_ids()
+        self._surface = np.append(surface_ids(self.mesh, self._objects), -1)  # the last is for misses
         self._source: np.ndarray | None = None  # face of the unedited mesh that each face looks like; None: itself
         self._rooms: collections.OrderedDict[int, BakedRoom] = collections.OrderedDict()
         self._lock = threading.RLock()
@@ -197,16 +199,6 @@ class World:
         reached = np.clip((light[:, :3] @ LUMINANCE) / 0.45, 0.25, 1.3)[:, None]
         return look_up(baked.environment, mirror) * reached
 
-    def _surface_ids(self) -> np.ndarray:
-        """[f + 1] a number per surface: structure by room and kind, objects by object and slot; the last is for misses."""
-        mesh = self.mesh
-        ids = (mesh.face_room + 1) * 8 + mesh.face_kind
-        slot = np.concatenate(
-            [np.zeros(int((mesh.face_object == OUTSIDE).sum()), np.int32), *(o.face_slot for o in self._objects)]
-        )
-        ids = np.where(mesh.face_object == OUTSIDE, ids, 1_000_000 + mesh.face_object * 64 + slot)
-        return np.append(ids, -1)
-
     def _edges(self, gbuffer: GBuffer) -> np.ndarray:
         """[h, w] bool: pixels beside another surface, a crease, or a jump in depth."""
         ids = self._surface[gbuffer.face]
@@ -221,6 +213,15 @@ class World:
             edges[a] |= differ
             edges[b] |= differ
         return edges
+
+
+def surface_ids(mesh: Mesh, objects: Sequence[SceneObject]) -> Int[np.ndarray, "f"]:
+    """A number per surface of a scene's mesh, of no other surface: structure by room and kind, objects by object and slot."""
+    structure = (mesh.face_room.astype(np.int64) + 1) * len(SurfaceKind) + mesh.face_kind
+    slots = 1 + max((len(thing.slots) for thing in objects), default=0)
+    slot = np.concatenate([np.zeros(int((mesh.face_object == OUTSIDE).sum()), np.int64), *(thing.face_slot for thing in objects)])
+    first = structure.max(initial=0) + 1
+    return np.where(mesh.face_object == OUTSIDE, structure, first + mesh.face_object.astype(np.int64) * slots + slot)
 
 
 def _contrasting(rgb: np.ndarray) -> np.ndarray:

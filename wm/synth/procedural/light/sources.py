@@ -42,11 +42,10 @@ def pane_emitters(mesh: Mesh, room: int, light: Light) -> list[Emitter]:
         normal = normals[group[0]]
         u = np.array([-normal[1], normal[0], 0.0])
         s, z = points @ u, points[:, 2]
-        middle = points[0] + (s.mean() - s[0]) * 0  # any point of the plane
         width, height = np.ptp(s), np.ptp(z)
         across, up = (np.arange(4) + 0.5) / 4, (np.arange(5) + 0.5) / 5
         a, b = (grid.ravel() for grid in np.meshgrid(s.min() + across * width, z.min() + up * height))
-        base = middle - (middle @ u) * u
+        base = points[0] - (points[0] @ u) * u  # any point of the plane
         base = np.array([base[0], base[1], 0.0])
         where = base + a[:, None] * u + b[:, None] * np.array([0.0, 0.0, 1.0]) + 0.02 * normal
         spread = np.broadcast_to(np.stack([u * width / 4, np.array([0.0, 0.0, height / 5])]), (20, 2, 3))
