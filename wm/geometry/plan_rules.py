@@ -35,7 +35,7 @@ RULES = {
     "room_too_small": "Inside its walls a room is one piece that holds a disk of 0.3 m radius.",
     "rooms_overlap": "Rooms touch at most, within 0.01 m.",
     "opening_off_wall": "An opening lies on a wall of its room, between the corners inside and below the ceiling.",
-    "openings_overlap": "Openings do not overlap; the two entries of one door agree.",
+    "openings_overlap": "Openings keep 0.01 m of wall between them; the two entries of one door agree.",
     "door_exterior": "Doors and passages lead into exactly one other room.",
     "window_interior": "Windows look outside.",
     "unreachable": "Every room can be reached from every other through doors and passages.",
