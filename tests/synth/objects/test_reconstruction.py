@@ -102,7 +102,8 @@ def test_a_mesh_in_the_cameras_frame_is_the_one_of_the_world():
 @pytest.mark.parametrize(
     ("label", "kind"),
     [("leather sofa", "sofa"), ("couch", "sofa"), ("TV stand", "media bench"), ("brass floor lamp", "floor lamp"),
-     ("large indoor plant", "plant"), ("zebra", "chest"), ("", "chest")],
+     ("large indoor plant", "plant"), ("zebra", "chest"), ("", "chest"), ("painting of flowers", "picture"),
+     ("stack of books", "pile of books"), ("suit of armour", "suit of armour"), ("vase of flowers", "vase")],
 )  # fmt: skip
 def test_labels_name_kinds_by_whole_words(label, kind):
     assert kind_of(label) == kind
