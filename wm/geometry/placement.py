@@ -23,7 +23,7 @@ from wm.types import SceneObject
 
 LIFT = 0.002
 """Metres between a thing and what it stands on, so that no two faces share a plane."""
-FLAT = 0.008
+PRESSED = 0.008
 """Metres that a thing lying on the floor is high at most: less than the feet of what stands on it may sink in."""
 WALL_GAP = 0.005
 """Metres between a wall and the back of what hangs on it."""
@@ -107,7 +107,7 @@ def _placed(thing: SceneObject, site: Site, taken: Occupancy, done: dict[int, Sc
             thing = dataclasses.replace(thing, support="floor")
             box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
     else:
-        thing = flattened(thing, FLAT) if thing.support == "flat" else thing
+        thing = flattened(thing, PRESSED) if thing.support == "flat" else thing
         box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
     return moved_to(thing, box) if box is not None else None
 
