@@ -119,6 +119,7 @@ def test_a_scene_of_ones_own():
         (["condition.objects=some"], "condition.objects='some': choose one of textured, boxes, none"),
         (["seed=-1", "cameras.fov=400"], "cameras.fov=400.0: must be a number from 5 to 150; seed=-1: must be a number from 0"),
         (["fit.spacing=nan"], "fit.spacing=nan: must be a number from 0.001 to 1"),
+        (["texture.min_facing=1"], "texture.min_facing=1.0: must be a number from 0 to below 1"),
         (["fit.lr_sh=inf"], "fit.lr_sh=inf: must be a number from 0 to 10"),
         (["workers=-1"], "workers=-1: must be a number from 0 to 1000, or null for one a core"),
         (["verify.low=0.5"], "verify.low=0.5: must not exceed verify.high=0.3"),

@@ -56,7 +56,7 @@ class TextureSettings:
     """Texture accumulation (paper, "Scaffold Mesh Texturing Details")."""
 
     texel_size: float = 0.02
-    min_facing: float = 0.15  # cosine between normal and view below which nothing is projected
+    min_facing: float = 0.15  # cosine between normal and view below which nothing is projected; below 1
     occlusion_tolerance: float = 0.02  # metres beyond the local depth maximum; the paper's 0.10 leaks (facts.md)
     opaque_weight: float = 0.5  # weight at which a texel counts as fully known
 

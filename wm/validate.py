@@ -19,7 +19,7 @@ CHOICES: Mapping[str, tuple[str, ...]] = {
     "fit.init": ("flat", "isotropic", "random"),
 }
 
-# key: (lowest, highest), both allowed. Counts that index arrays have a ceiling that catches a slip of the keyboard.
+# key: (lowest, highest), both allowed but for BELOW. Counts that index arrays have a ceiling that catches a slip of the keyboard.
 RANGES: Mapping[str, tuple[float, float]] = {
     "plan.max_iterations": (1, 1000),
     "cameras.width": (16, 16384),
@@ -105,6 +105,10 @@ RANGES: Mapping[str, tuple[float, float]] = {
 }
 
 
+BELOW = frozenset({"texture.min_facing"})
+"""Keys whose highest value is not reached: one divides by what is left to 1."""
+
+
 class ConfigError(InputError):
     """A configuration that cannot be run; the message names key, value and what would be right."""
 
@@ -124,8 +128,9 @@ def validate_config(config: RunConfig, *, backends: Mapping[str, tuple[str, ...]
     wrong = {key: names for key, names in choices.items() if values[key] not in names}
     problems = [f"{key}={values[key]!r}: choose one of {', '.join(names)}" for key, names in wrong.items()]
     for key, (low, high) in RANGES.items():
-        if not _within(values[key], low, high):
-            problems.append(f"{key}={values[key]!r}: must be a number from {low:g} to {high:g}")
+        below = key in BELOW
+        if not _within(values[key], low, high) or (below and values[key] == high):
+            problems.append(f"{key}={values[key]!r}: must be a number from {low:g} to {'below ' * below}{high:g}")
     if config.workers is not None and not _within(config.workers, 0, 1000):
         problems.append(f"workers={config.workers!r}: must be a number from 0 to 1000, or null for one a core")
     if config.raster.compositor in ("kernels", "interpreted") and config.raster.tile.bit_count() != 1:

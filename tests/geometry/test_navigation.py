@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.geometry.plans import l_shaped, one_room, opening, random_plan, two_rooms
 from tests.geometry.things import box
 from wm.geometry.footprint import interior_polygon
-from wm.geometry.navigation import navigability, object_corners, walkable_floor
+from wm.geometry.navigation import navigability, object_corners, outlines, walkable_floor
 from wm.geometry.plan_records import FloorPlan, Opening, Room
 from wm.schema import NavigationSettings
 
@@ -76,6 +76,33 @@ def test_what_stands_in_the_way(thing, counts):
         assert (empty.free.sum() - full.free.sum()) * full.cell**2 == pytest.approx(4.0, rel=0.1)
 
 
+def flared(foot: float, side: float, height: float, angle: float) -> np.ndarray:
+    """The triangles of a pyramid upside down, its tip cut off: a square foot, and a wider square above."""
+    thing = box([-0.5, -0.5, 0.0], [0.5, 0.5, height])
+    vertices = thing.vertices.copy()
+    vertices[:, :2] *= np.where(vertices[:, 2:] > 0, side, foot)
+    r = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    vertices[:, :2] = vertices[:, :2] @ r.T
+    return vertices[thing.faces]
+
+
+@given(st.floats(0.05, 0.5), st.floats(0.6, 3.0), st.floats(0.3, 3.0), st.floats(0.0, 3.0), st.floats(0.2, 2.9))
+def test_what_widens_upwards_is_cut_at_the_height(foot, side, height, angle, high):
+    corners = flared(foot, side, height, angle)
+    width = foot + (side - foot) * min(high / height, 1.0)
+    assert outlines([corners], 0.1, high).area == pytest.approx(width**2 if height > 0.1 else 0.0, rel=1e-6)
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(-0.5, 1.5))
+def test_outlines_do_not_depend_on_the_triangles(seed, high):
+    corners = np.random.default_rng(seed).uniform(0, 1, (6, 3, 3))
+    a, b, c = np.moveaxis(corners, 1, 0)
+    ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+    finer = np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    coarse, fine = outlines([corners], 0.0, high), outlines([finer], 0.0, high)
+    assert coarse.area == pytest.approx(fine.area, abs=1e-9) and outlines([finer], 0.0, 2.0).area >= fine.area - 1e-12
+
+
 def test_windows_are_no_way_out():
     plan = two_rooms()
     areas = sum(interior_polygon(plan, index).area for index in (0, 1))
@@ -110,7 +137,7 @@ def test_objects_are_found_in_a_mesh():
     things = [box([1, 1, 0], [2, 2, 1]), box([3, 1, 0], [4, 2, 2])]
     mesh = assemble_scene(build_structure(one_room()), things)
     for corners, thing in zip(object_corners(mesh), things, strict=True):
-        np.testing.assert_allclose(np.sort(corners, axis=0), np.sort(thing.vertices, axis=0))
+        np.testing.assert_allclose(corners, thing.vertices[thing.faces])
     assert object_corners(build_structure(one_room())) == []
 
 

@@ -18,7 +18,8 @@ LABELS = {
     "sofa": (2.0, 0.9, 0.8), "armchair": (0.8, 0.8, 0.9), "dining table": (1.6, 0.9, 0.75), "bookshelf": (1.2, 0.3, 2.0),
     "rug": (2.0, 1.4, 0.03), "picture": (0.7, 0.04, 0.5), "curtains": (1.6, 0.1, 1.9), "chandelier": (0.7, 0.7, 0.7),
     "vase": (0.2, 0.2, 0.3), "pile of books": (0.25, 0.3, 0.1), "large indoor plant": (0.6, 0.6, 1.3),
-    "tv stand": (1.4, 0.4, 0.5), "wooden door": (0.9, 0.1, 2.0),
+    "tv stand": (1.4, 0.4, 0.5), "wooden door": (0.9, 0.1, 2.0), "fern plant": (0.3, 0.3, 0.4), "gizmo": (0.3, 0.25, 0.35),
+    "thin gizmo": (0.8, 0.05, 1.9), "low bench": (1.2, 0.5, 0.3),
 }  # fmt: skip
 
 
@@ -66,7 +67,9 @@ def test_placed_rooms_obey_the_laws_and_stay_as_they_are(room, places, seed):
 
     again = place_objects(objects, site)
     assert again.dropped == ()
-    assert all(a.vertices.tobytes() == b.vertices.tobytes() for a, b in zip(objects, again.objects))
+    for a, b in zip(objects, again.objects, strict=True):
+        assert a.vertices.tobytes() == b.vertices.tobytes() and a.support == b.support
+        assert a.T_world_object.tobytes() == b.T_world_object.tobytes()
 
     order = np.random.default_rng(seed).permutation(len(things)).tolist()
     other = place_objects([things[k] for k in order], site)
@@ -104,6 +107,26 @@ def test_small_things_stand_on_what_is_below_and_only_where_it_carries():
     assert heights[0] == pytest.approx(0.754, abs=1e-3) and heights[2] == pytest.approx(0.754, abs=1e-3)
     far = place_objects([table, box((0.5, 3, 0.7), (0.7, 3.2, 0.9), label="vase")], site)
     assert box_of(far.objects[1]).z < 0.01
+
+
+@pytest.mark.parametrize(("label", "low"), [("vase", 0.9), ("fern plant", 0.6), ("gizmo", 0.6)])
+def test_what_finds_no_top_stands_on_the_floor_and_stays_there(label, low):
+    """A low bench beside it is within reach of a thing on the floor, and was not of where it was first seen."""
+    bench = box((1.2, 1.0, 0.0), (2.4, 1.6, 0.25), label="low bench")
+    thing = box((0.9, 1.2, low), (1.1, 1.4, low + 0.3), label=label)
+    placed = place_objects([bench, thing], square_room())
+    assert [thing.support for thing in placed.objects] == ["floor", "floor"]
+    again = place_objects(list(placed.objects), square_room())
+    assert [thing.support for thing in again.objects] == ["floor", "floor"]
+    np.testing.assert_array_equal(again.objects[1].vertices, placed.objects[1].vertices)
+
+
+def test_what_no_word_tells_stays_on_a_low_bench():
+    bench = box((1.2, 1.0, 0.0), (2.4, 1.6, 0.3), label="low bench")
+    placed = place_objects([bench, box((1.5, 1.2, 0.4), (1.8, 1.4, 0.7), label="gizmo")], square_room())
+    again = place_objects(list(placed.objects), square_room())
+    assert [thing.support for thing in placed.objects] == [thing.support for thing in again.objects] == ["floor", "object"]
+    np.testing.assert_array_equal(again.objects[1].vertices, placed.objects[1].vertices)
 
 
 def test_pictures_hang_on_the_nearest_wall_and_off_its_openings():

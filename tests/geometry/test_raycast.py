@@ -92,14 +92,17 @@ def test_occlusion_equals_the_twin_and_the_nearest_hit(seed):
     origins, directions = _rays(seed)
     clear = _away_from_edges(mesh, origins, directions)
     origins, directions = origins[clear], directions[clear]
-    limits = np.random.default_rng(seed).uniform(0.0, 2.0, len(origins))
+    limits = np.random.default_rng(seed).uniform(-2.0, 2.0, len(origins))
     t = cast_rays_reference(mesh, origins, directions).t
     limits = np.where(np.abs(limits - t) < 1e-3, limits + 2e-3, limits)
+    limits[:5] = np.nan, -np.inf, np.inf, 0.0, -0.0  # nothing is nearer than NaN, as nothing is nearer than zero
     scene = build_ray_scene(mesh)
     np.testing.assert_array_equal(
         occluded(scene, origins, directions, limits), occluded_reference(mesh, origins, directions, limits)
     )
     np.testing.assert_array_equal(occluded(scene, origins, directions), cast_rays(scene, origins, directions).hit)
+    for limit in (-0.5, -np.inf, np.nan, 0.0):
+        assert not occluded(scene, origins, directions, limit).any()
 
 
 def test_the_gbuffer_equals_the_twin_and_unprojects_onto_its_faces():
@@ -176,6 +179,13 @@ def test_a_mesh_without_faces_is_never_hit():
     assert not cast(scene, make_camera(np.zeros(3), np.ones(3), width=3, height=2, fov_deg=60.0)).hit.any()
 
 
+def test_a_mesh_may_be_given_for_its_scene():
+    mesh = _soup(2)
+    scene, rays = build_ray_scene(mesh), _rays(2)
+    np.testing.assert_array_equal(cast_rays(mesh, *rays).t, cast_rays(scene, *rays).t)
+    np.testing.assert_array_equal(occluded(mesh, *rays, 1.0), occluded(scene, *rays, 1.0))
+
+
 def test_no_rays_are_no_hits():
     scene = build_ray_scene(_soup(1))
     assert len(cast_rays(scene, np.zeros((0, 3)), np.zeros((0, 3))).t) == 0
@@ -187,6 +197,9 @@ def test_wrong_shapes_and_broken_meshes_are_refused():
     for query in (cast_rays, occluded):
         with pytest.raises(ValueError, match="one shape"):
             inspect.unwrap(query)(scene, np.zeros((4, 3)), np.ones((3, 3)))  # past jaxtyping, as a user calls it
+    for limits in (np.ones(3), np.ones((4, 1))):
+        with pytest.raises(ValueError, match="max_distance"):
+            inspect.unwrap(occluded)(scene, np.zeros((4, 3)), np.ones((4, 3)), limits)
     broken = _soup(1)
     broken.vertices[0, 0] = np.nan
     with pytest.raises(ValueError):

@@ -3,9 +3,11 @@
 import itertools
 
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.geometry.test_structure import assert_watertight
-from wm.geometry.slivers import flip_slivers, heights
+from wm.geometry.slivers import HEIGHT, flip_slivers, heights
 from wm.types import Mesh
 
 
@@ -32,6 +34,23 @@ def test_chains_of_flat_triangles_disappear():
         assert_watertight(Mesh(vertices=vertices, faces=flipped, **fields))
         a, b, c = (vertices[flipped[:, k]] for k in range(3))
         assert abs(np.sum(a * np.cross(b, c)) / 6 - 1 / 6) < 1e-12
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 5), st.integers(0, 2))
+def test_a_flip_leaves_no_flat_triangle_and_corners_that_coincide_stay(seed, count, doubled):
+    """Where a chain has a point twice, the triangle between the two has no height and no flip gives it one."""
+    vertices, faces = fan(count)
+    rng = np.random.default_rng(seed)
+    twice = rng.choice(count, min(doubled, count - 1), replace=False) + 4
+    vertices[twice] = vertices[np.where(twice + 1 < len(vertices), twice + 1, 1)]
+    labels = np.arange(len(faces))
+    flipped, _ = flip_slivers(vertices, faces, labels)
+    before, after = heights(vertices, faces) < HEIGHT, heights(vertices, flipped) < HEIGHT
+    changed = (flipped != faces).any(axis=1)
+    assert not after[changed].any() and not (after & ~before).any()
+    assert after.sum() == before.sum() - np.count_nonzero(before & changed)
+    fields = {key: np.zeros(len(flipped), np.int32) for key in ("face_room", "face_kind", "face_object")}
+    assert_watertight(Mesh(vertices=vertices, faces=flipped, **fields))
 
 
 def test_a_mesh_without_flat_triangles_is_returned_as_it_is():

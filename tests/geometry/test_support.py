@@ -4,13 +4,14 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from wm.geometry.support import covers_windows, is_plural, is_structure, support_of, words_of
+from wm.geometry.support import _NOUNS, covers_windows, is_plural, is_structure, support_of, words_of
 from wm.synth.procedural.furniture import KINDS
 
 SIZE = (1.0, 1.0, 1.0)
 kinds = st.sampled_from(sorted(KINDS))
 adjectives = st.lists(st.sampled_from(("large", "indoor", "old", "Persian", "outdoor", "stained-glass")), max_size=3)
 structures = st.sampled_from(("wall", "floor", "ceiling", "door", "doorway", "window", "archway", "passage", "baseboard", "room"))
+nouns = [noun for named in _NOUNS.values() for noun in named]
 letters = st.text("abcdefghijklmnopqrstuvwxyz", min_size=1, max_size=4)
 
 
@@ -53,11 +54,55 @@ def test_every_kind_of_furniture_is_held_as_its_builder_says(kind):
         ("large indoor plant", "floor"), ("wall clock", "wall"), ("grandfather clock", "floor"), ("ceiling fan", "ceiling"),
         ("hanging lamps", "ceiling"), ("stack of books", "object"), ("vase of flowers", "object"), ("door mat", "flat"),
         ("wall-mounted television", "wall"), ("floor cushion", "floor"), ("bookshelves", "floor"), ("Persian rug", "flat"),
-        ("wooden chairs", "floor"),
+        ("wooden chairs", "floor"), ("painting of flowers", "wall"), ("picture of a window", "wall"),
+        ("chest of drawers", "floor"), ("statue of a standing horse", "floor"), ("bowl of fruit", "object"),
+        ("set of wall shelves", "wall"), ("suit of armour", "floor"), ("of", "floor"), ("pile of", "floor"),
     ],
 )  # fmt: skip
 def test_whole_words_decide(label, support):
     assert support_of(label, (1.0, 1.0, 1.0)) == support
+
+
+def plural(noun: str) -> str:
+    """By the rules of English; shelf is the only noun here in -f."""
+    if noun.endswith("y"):
+        return noun[:-1] + "ies"
+    if noun.endswith("shelf"):
+        return noun[:-1] + "ves"
+    return noun + ("es" if noun.endswith(("ch", "sh", "x", "ss")) else "s")
+
+
+@pytest.mark.parametrize("noun", nouns)
+def test_several_are_held_as_one_is(noun):
+    assert words_of(plural(noun)) == [noun] and is_plural(plural(noun)) and not is_plural(noun)
+    assert support_of(plural(noun), SIZE) == support_of(noun, SIZE)
+
+
+@pytest.mark.parametrize(
+    ("several", "one"),
+    [
+        ("benches", "bench"), ("couches", "couch"), ("stoves", "stove"), ("torches", "torch"), ("knives", "knife"),
+        ("boxes", "box"), ("sleeves", "sleeve"), ("bookshelves", "bookshelf"), ("glasses", "glass"), ("dishes", "dish"),
+        ("vases", "vase"), ("ties", "tie"), ("leaves", "leaf"),
+    ],
+)  # fmt: skip
+def test_plurals_that_are_not_just_an_s_more(several, one):
+    assert words_of(several) == [one] == words_of(one)
+
+
+@given(st.sampled_from(nouns), st.sampled_from([*nouns, "door", "window", "wall", "horse", "fruit", "drawers"]), st.booleans())
+def test_what_is_shown_or_held_is_not_the_thing(noun, content, several):
+    label = f"{plural(noun) if several else noun} of a {content}"
+    assert support_of(label, SIZE) == support_of(noun, SIZE)
+    assert not is_structure(label) and is_plural(label) == several
+
+
+@given(st.sampled_from(("pile", "stacks", "set", "pair", "bunch", "large collection")), st.sampled_from(nouns))
+def test_words_that_count_name_nothing(counted, noun):
+    label = f"{counted} of {plural(noun)}"
+    assert support_of(label, SIZE) == support_of(noun, SIZE)
+    assert is_plural(label) and not is_structure(label)
+    assert is_structure(f"{counted} of windows") and not is_structure(f"{counted} of photos of windows")
 
 
 @pytest.mark.parametrize(

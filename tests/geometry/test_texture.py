@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+import inspect
 
 import numpy as np
 import pytest
@@ -11,12 +12,12 @@ from hypothesis import strategies as st
 from tests.geometry.plans import one_room, two_rooms
 from tests.geometry.things import box
 from wm.geometry.atlas import build_atlas, texel_charts, texel_positions
-from wm.geometry.camera import camera_center, make_camera, unproject_depth
+from wm.geometry.camera import camera_center, make_camera, scale_camera, unproject_depth
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.raycast import build_ray_scene, cast, occluded
 from wm.geometry.sampling import pixel_charts, sample_atlas
 from wm.geometry.structure import build_structure
-from wm.geometry.texture import accumulate
+from wm.geometry.texture import accumulate, accumulate_in_place
 from wm.schema import TextureSettings
 from wm.types import SurfaceKind
 
@@ -163,6 +164,54 @@ def test_unusable_pixels_are_not_used():
     np.testing.assert_allclose(used, np.broadcast_to([0.0, 1.0, 0.0], used.shape), atol=1e-6)
     nothing = accumulate(atlas, gbuffer, view, rgb, 0, usable=np.zeros_like(usable))
     assert nothing.weight.max() == 0
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_pixels_without_a_finite_colour_are_not_used_whether_marked_or_not(value):
+    _, scene, atlas = furnished()
+    view = camera(EYES[0])
+    gbuffer = cast(scene, view)
+    rng = np.random.default_rng(0)
+    rgb = rng.uniform(0, 1, (*gbuffer.depth.shape, 3)).astype(np.float32)
+    usable = rng.uniform(size=gbuffer.depth.shape) < 0.9
+    broken = rgb.copy()
+    broken[~usable, rng.integers(0, 3, (~usable).sum())] = value
+    expected = accumulate(atlas, gbuffer, view, rgb, 0, usable=usable)
+    for mask in (usable, None):
+        after = accumulate(atlas, gbuffer, view, broken, 0, usable=mask)
+        np.testing.assert_array_equal(after.color, expected.color)
+        np.testing.assert_array_equal(after.weight, expected.weight)
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"rgb": np.zeros((96, 172, 4), np.float32)}, "rgb must be floating .96, 172, 3. .*float32 .96, 172, 4."),
+        ({"rgb": np.zeros((96, 172), np.float32)}, "rgb"),
+        ({"rgb": np.zeros((96, 172, 1), np.float32)}, "rgb"),
+        ({"rgb": np.zeros((48, 86, 3), np.float32)}, "rgb"),
+        ({"rgb": np.zeros((96, 172, 3), np.uint8)}, "rgb .*uint8"),
+        ({"usable": np.ones(172, bool)}, "usable must be bool .96, 172."),
+        ({"usable": np.ones((96, 172), np.uint8)}, "usable"),
+        ({"room": 7}, "room 7 has no surface .*rooms .0."),
+        ({"settings": TextureSettings(min_facing=1.0)}, "min_facing"),
+        ({"camera": scale_camera(camera(EYES[0]), 0.5)}, "96 x 172 pixels, the camera 48 x 86"),
+    ],
+)
+def test_what_does_not_fit_the_view_is_named_and_paints_nothing(changed, said):
+    _, scene, atlas = furnished()
+    view = camera(EYES[0])
+    given = {"camera": view, "rgb": np.zeros((96, 172, 3), np.float32), "room": 0} | changed
+    with pytest.raises(ValueError, match=said):  # past jaxtyping, as a user calls it
+        inspect.unwrap(accumulate_in_place)(atlas, cast(scene, view), **given)
+    assert atlas.weight.max() == 0
+
+
+def test_reading_with_another_camera_is_refused():
+    _, scene, atlas = furnished()
+    view = camera(EYES[0])
+    with pytest.raises(ValueError, match="96 x 172 pixels, the camera 48 x 86"):
+        sample_atlas(atlas, cast(scene, view), scale_camera(view, 0.5))
 
 
 def test_an_atlas_of_the_structure_serves_the_furnished_scene():

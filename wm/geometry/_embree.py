@@ -1,5 +1,6 @@
 """The only door to embreex. What it hides (measured, facts.md): misses carry tfar 1e37, `dists` is overwritten in place, fewer
-directions than origins crash, bad indices and NaN vertices are silently never hit, the scene is committed by its first query.
+directions than origins crash, bad indices and NaN vertices are silently never hit, a negative limit reads as occluded, and the
+scene is committed by its first query.
 
 embreex is imported when the first scene is built, so that importing `wm.geometry` stays cheap.
 """
@@ -54,14 +55,18 @@ def any_hit(
     directions: Float[np.ndarray, "r 3"],
     limits: Float[np.ndarray, "r"],
 ) -> np.ndarray:
-    """Whether anything is hit at all before `limits` (in units of |d|), bool [r]; twice as fast as the nearest hit."""
+    """Whether anything is hit at all before `limits` (in units of |d|), bool [r]; twice as fast as the nearest hit.
+
+    Nothing lies before a limit that is zero, negative or NaN.
+    """
     _check_rays(origins, directions)
     if limits.shape != origins.shape[:1]:
         raise ValueError(f"{len(origins)} rays need as many limits, not {limits.shape}")
     if built.scene is None or len(origins) == 0:
         return np.zeros(len(origins), bool)
-    distances = np.minimum(limits, FAR, dtype=np.float32)  # a copy, for Embree overwrites it
-    return built.scene.run(origins, directions, dists=distances, query="OCCLUDED") >= 0
+    ahead = limits > 0
+    distances = np.where(ahead, np.minimum(limits, FAR), 0).astype(np.float32)  # a copy, for Embree overwrites it
+    return ahead & (built.scene.run(origins, directions, dists=distances, query="OCCLUDED") >= 0)
 
 
 def _check_rays(origins: np.ndarray, directions: np.ndarray) -> None:

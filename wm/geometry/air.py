@@ -55,7 +55,7 @@ class RoomAir:
 def room_air(plan: FloorPlan, index: int, scene: RayScene, settings: CameraSettings) -> RoomAir:
     """Survey a room at eye height and near its ceiling.
 
-    Raises: ValueError if no point of the room is free at eye height, naming the room and why.
+    Raises: InputError if no point of the room is free at eye height, naming the room and why.
     """
     room, floor = plan.rooms[index], interior_polygon(plan, index)
     inradius = shapely.maximum_inscribed_circle(floor).length

@@ -50,7 +50,7 @@ def room_surface(mesh: Mesh, room: int, *, spacing: float, detail_spacing: float
 def room_eyes(plan: FloorPlan, scene: RayScene, room: int, settings: CameraSettings) -> Float[np.ndarray, "n 3"]:
     """Where eyes may be that see a room: in its free air near its furniture, standing and near the ceiling, and in its doorways.
 
-    Raises: ValueError if the room has no free spot for a camera, naming the room and why.
+    Raises: InputError if the room has no free spot for a camera, naming the room and why.
     """
     air = room_air(plan, room, scene, settings)
     inside = [_spread(air, height) for height in sorted({min(_LOW, air.eye_height), air.eye_height, air.high})]

@@ -32,7 +32,7 @@ class GlbNode:
 
     name: str
     vertices: np.ndarray  # [v, 3] metres, z up
-    faces: np.ndarray  # [f, 3]
+    faces: np.ndarray  # [f, 3] integer
     uv: np.ndarray | None = None  # [v, 2]; (0, 0) is the corner of the texture's first pixel, v runs down its rows
     texture: np.ndarray | None = None  # [h, w, 3] uint8 sRGB
     base_color: np.ndarray | None = None  # [3] sRGB in [0, 1]; white without
@@ -73,7 +73,8 @@ def save_glb(path: str | os.PathLike[str], nodes: Iterable[GlbNode]) -> None:
     """Writes nodes to a GLB file; nodes without faces are left out.
 
     Raises:
-      ValueError: a node's coordinates are not finite, its indices out of range, or its uv and texture do not belong together.
+      ValueError: a node's vertices or faces have another shape or type than [v, 3] and integer [f, 3], its coordinates are not
+        finite, its indices out of range, or its uv and texture do not belong together. The message names node and field.
     """
     Path(path).write_bytes(_encode(nodes))
 
@@ -89,6 +90,10 @@ def _encode(nodes: Iterable[GlbNode]) -> bytes:
 
 def _check(node: GlbNode) -> None:
     where = f"GLB node {node.name!r}"
+    if node.vertices.ndim != 2 or node.vertices.shape[1] != 3:
+        raise ValueError(f"{where}: vertices must be [v, 3]; they are {list(node.vertices.shape)}")
+    if node.faces.ndim != 2 or node.faces.shape[1] != 3 or not np.issubdtype(node.faces.dtype, np.integer):
+        raise ValueError(f"{where}: faces must be integers [f, 3]; they are {node.faces.dtype} {list(node.faces.shape)}")
     if not (np.abs(node.vertices) <= np.finfo(np.float32).max).all():
         raise ValueError(f"{where}: a vertex is not finite in float32")
     if len(node.faces) and not (node.faces.min() >= 0 and node.faces.max() < len(node.vertices)):

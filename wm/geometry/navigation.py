@@ -20,7 +20,7 @@ from wm.geometry.plan_records import FloorPlan
 from wm.schema import NavigationSettings
 from wm.types import Mesh, SceneObject
 
-FLAT = 0.1
+STEP = 0.1
 """Metres below which a thing on the floor is stepped on: a rug, a threshold."""
 _OVERLAP = 0.01
 """Metres by which a passage reaches into either room, so that floors and passages are one area."""
@@ -49,11 +49,11 @@ def navigability(
     """The share of the free floor that can be reached from its largest part.
 
     Obstacles are objects that stand on the floor or on one another (support "floor" or "object"), by the outline of what is
-    lower than `obstacle_height`; what is lower than FLAT is walked over.
+    lower than `obstacle_height`; what is lower than STEP is walked over.
     """
     floor = walkable_floor(plan)
-    standing = (thing.vertices for thing in objects if thing.support in ("floor", "object"))
-    area = floor.difference(outlines(standing, FLAT, settings.obstacle_height))
+    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
+    area = floor.difference(outlines(standing, STEP, settings.obstacle_height))
     low, high = np.array(floor.bounds[:2]), np.array(floor.bounds[2:])
     columns, rows = (int(n) for n in np.ceil((high - low) / settings.cell))
     free = cells_inside(area, low, settings.cell, (rows, columns))
@@ -68,29 +68,46 @@ def walkable_floor(plan: FloorPlan) -> BaseGeometry:
     return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.kind != "window")])
 
 
-def outlines(things: Iterable[Float[np.ndarray, "_ 3"]], low: float, high: float) -> BaseGeometry:
-    """The union, from above, of the convex outlines of the things' parts below `high`; things that end below `low` have none."""
+def outlines(things: Iterable[Float[np.ndarray, "_ 3 3"]], low: float, high: float) -> BaseGeometry:
+    """The union, from above, of the convex outlines of the things' parts below `high`; things that end below `low` have none.
+
+    Args:
+      things: the triangles [f, corner, xyz] of each.
+      low, high: metres above the floor.
+    """
     hulls = []
-    for vertices in things:
-        below = vertices[vertices[:, 2] < high]
-        if len(below) and vertices[:, 2].max() > low:
-            hulls.append(shapely.convex_hull(shapely.multipoints(below[:, :2])))
+    for corners in things:
+        below = _below(corners, high)
+        if len(below) and corners[..., 2].max() > low:
+            hulls.append(shapely.convex_hull(shapely.multipoints(below)))
     return shapely.union_all(hulls)
 
 
+def _below(corners: Float[np.ndarray, "f 3 3"], high: float) -> Float[np.ndarray, "n 2"]:
+    """From above, the corners below a height and the points at which edges cross it: their hull is that of the part below."""
+    start = corners.reshape(-1, 3)
+    end = np.roll(corners, -1, axis=1).reshape(-1, 3)
+    up = (start[:, 2] < high) & (end[:, 2] >= high)
+    down = (start[:, 2] >= high) & (end[:, 2] < high)
+    foot, top = np.concatenate([start[up], end[down]]), np.concatenate([end[up], start[down]])
+    share = (high - foot[:, 2:]) / (top[:, 2:] - foot[:, 2:])
+    crossings = foot[:, :2] + share * (top[:, :2] - foot[:, :2])
+    return np.concatenate([start[start[:, 2] < high, :2], crossings])
+
+
 def body_floor(
-    plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3"]], *, height: float, radius: float
+    plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3 3"]], *, height: float, radius: float
 ) -> BaseGeometry:
-    """Where the centre of a body of this height and radius can be among these things."""
-    return walkable_floor(plan).difference(outlines(things, FLAT, height)).buffer(-radius)
+    """Where the centre of a body of this height and radius can be among these things, of which the triangles are given."""
+    return walkable_floor(plan).difference(outlines(things, STEP, height)).buffer(-radius)
 
 
-def object_corners(mesh: Mesh) -> list[Float[np.ndarray, "v 3"]]:
-    """The vertices of each object in a scene's mesh."""
+def object_corners(mesh: Mesh) -> list[Float[np.ndarray, "_ 3 3"]]:
+    """The triangles [f, corner, xyz] of each object in a scene's mesh."""
     used = np.flatnonzero(mesh.face_object >= 0)
     used = used[np.argsort(mesh.face_object[used], kind="stable")]
     starts = np.flatnonzero(np.diff(mesh.face_object[used], prepend=-1))
-    return [mesh.vertices[np.unique(faces)] for faces in np.split(mesh.faces[used], starts[1:])] if len(used) else []
+    return [mesh.vertices[faces] for faces in np.split(mesh.faces[used], starts[1:])] if len(used) else []
 
 
 def cells_inside(

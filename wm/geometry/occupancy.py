@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from wm.geometry.navigation import BODY, FLAT, HEADROOM
+from wm.geometry.navigation import BODY, HEADROOM, STEP
 from wm.geometry.site import Site
 from wm.geometry.upright_box import UprightBox, overlap_height, penetration
 
@@ -75,7 +75,7 @@ class Occupancy:
 
 
 def _in_the_way(box: UprightBox) -> bool:
-    return box.z < HEADROOM and box.top > FLAT
+    return box.z < HEADROOM and box.top > STEP
 
 
 def _reached(standing: BaseGeometry, probes: np.ndarray) -> list[frozenset[int]]:

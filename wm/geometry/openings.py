@@ -1,6 +1,7 @@
 """Where the openings of a plan lie on its walls, and what is wrong with those that do not."""
 
 import dataclasses
+import math
 
 import numpy as np
 import shapely
@@ -9,6 +10,7 @@ from wm.geometry.plan_records import FloorPlan, Opening, Violation
 from wm.geometry.walls import SHARED, Behind, Wall
 
 _SAME = 0.02  # metres by which the two entries of one door may differ, one in each room's list
+APART = 0.01  # metres of wall at least between two openings: of less the carving leaves films, or sheets of no thickness
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,7 +97,7 @@ def _place(room: int, k: int, opening: Opening, walls: tuple[Wall, ...]) -> Plac
 
 
 def _once(plan: FloorPlan, places: list[Place]) -> tuple[tuple[Place, ...], list[Violation]]:
-    """Drops the second entry of a door listed by both rooms; names openings that overlap."""
+    """Drops the second entry of a door listed by both rooms; names openings that overlap or nearly touch."""
     groups: dict[tuple, list[Place]] = {}
     violations: list[Violation] = []
     kept = []
@@ -103,33 +105,47 @@ def _once(plan: FloorPlan, places: list[Place]) -> tuple[tuple[Place, ...], list
         # Doors of one pair of rooms meet in one group whichever room lists them; windows stay with their wall.
         pair = (id(place.wall),) if place.behind is None else tuple(sorted((place.room, place.behind.room)))
         group = groups.setdefault(pair, [])
-        rival = next((other for other in group if _overlap(plan, other, place)), None)
-        if rival is None:
+        rivals = [other for other in group if _apart(plan, other, place) < APART - 1e-6]
+        if not rivals:
             group.append(place)
             kept.append(place)
-        elif not _same(plan, rival, place):
-            mine, theirs = plan.rooms[place.room], plan.rooms[rival.room]
-            message = (
-                f"{describe(mine.openings[place.opening], place.opening)} overlaps "
-                f"{describe(theirs.openings[rival.opening], rival.opening)} of room {theirs.id}"
-                + ("" if place.room == rival.room else "; the two entries of one door must agree")
-            )
-            violations.append(Violation(mine.id, "openings_overlap", message))
+        elif not any(_same(plan, rival, place) for rival in rivals):
+            violations.append(_clash(plan, place, rivals[0]))
     return tuple(kept), violations
+
+
+def _clash(plan: FloorPlan, place: Place, rival: Place) -> Violation:
+    mine, theirs = plan.rooms[place.room], plan.rooms[rival.room]
+    if _apart(plan, rival, place) < -1e-6:
+        how, advice = "overlaps", ""
+    else:
+        how, advice = "touches or nearly touches", f"; make them one opening or keep {APART:g} m of wall between them"
+    if place.room != rival.room:
+        advice = "; the two entries of one door must agree"
+    message = (
+        f"{describe(mine.openings[place.opening], place.opening)} {how} "
+        f"{describe(theirs.openings[rival.opening], rival.opening)} of room {theirs.id}{advice}"
+    )
+    return Violation(mine.id, "openings_overlap", message)
 
 
 def _ends(place: Place) -> np.ndarray:
     return place.wall.start + np.array([[place.low], [place.high]]) * place.wall.direction
 
 
-def _overlap(plan: FloorPlan, a: Place, b: Place) -> bool:
-    """Whether two openings of one pair of rooms, or of one exterior wall, take up the same piece of wall."""
+def _apart(plan: FloorPlan, a: Place, b: Place) -> float:
+    """Metres of wall between two openings of one pair of rooms, or of one exterior wall: beside or above, whichever is more.
+
+    Negative where they overlap, infinite where they do not lie on one line.
+    """
     first, second = plan.rooms[a.room].openings[a.opening], plan.rooms[b.room].openings[b.opening]
-    if first.sill_height + first.height <= second.sill_height or second.sill_height + second.height <= first.sill_height:
-        return False
     offset = _ends(b) - a.wall.start
     along, across = offset @ a.wall.direction, offset @ a.wall.normal
-    return bool(along.min() < a.high - 1e-6 and along.max() > a.low + 1e-6 and np.abs(across).max() <= 2 * SHARED)
+    if np.abs(across).max() > 2 * SHARED:
+        return math.inf
+    beside = max(float(along.min()) - a.high, a.low - float(along.max()))
+    above = max(second.sill_height - first.sill_height - first.height, first.sill_height - second.sill_height - second.height)
+    return max(beside, above)
 
 
 def _same(plan: FloorPlan, a: Place, b: Place) -> bool:

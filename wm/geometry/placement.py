@@ -17,13 +17,13 @@ from wm.geometry.occupancy import Occupancy, distance_to_wall, ring
 from wm.geometry.site import Site, wall_yaw
 from wm.geometry.stacking import stacked
 from wm.geometry.support import covers_windows, is_structure, support_of
-from wm.geometry.upright import flattened, levelled, moved_to, turn_between
+from wm.geometry.upright import EXACT, flattened, levelled, moved_to, turn_between
 from wm.geometry.upright_box import UprightBox, box_of
 from wm.types import SceneObject
 
 LIFT = 0.002
 """Metres between a thing and what it stands on, so that no two faces share a plane."""
-FLAT = 0.008
+PRESSED = 0.008
 """Metres that a thing lying on the floor is high at most: less than the feet of what stands on it may sink in."""
 WALL_GAP = 0.005
 """Metres between a wall and the back of what hangs on it."""
@@ -50,8 +50,12 @@ def place_objects(things: list[SceneObject], site: Site) -> Placement:
     """The things of one room, placed.
 
     Args:
-      things: in world space, nearly upright; their labels say what they are, their `support` is found anew.
+      things: in world space, nearly upright; their labels say what they are. Their `support` is found anew, unless they
+        are where placement put them.
       site: the room.
+
+    Returns:
+      The things with what they rest on now: what found no top to stand on stands on the floor.
     """
     upright = [_classified(thing) for thing in things]
     order = sorted(range(len(things)), key=lambda k: _priority(upright[k]))
@@ -72,8 +76,14 @@ def place_objects(things: list[SceneObject], site: Site) -> Placement:
 
 def _classified(thing: SceneObject) -> SceneObject:
     upright = levelled(thing)
-    support = support_of(thing.label, upright.size.tolist(), float(upright.vertices[:, 2].min()))
-    return dataclasses.replace(upright, support=support)
+    low = float(upright.vertices[:, 2].min())
+    told = support_of(thing.label, upright.size.tolist(), low)
+    held = support_of(thing.label, upright.size.tolist(), math.inf)  # where words do not tell, what would hold it off the floor
+    if told == "object" and thing.support == "floor" and abs(low - LIFT) < EXACT:
+        told = "floor"  # it found no top before
+    elif thing.support == held and held in ("object", "wall") and low > LIFT + EXACT:
+        told = held  # it hangs or stands on something, be it ever so low
+    return dataclasses.replace(upright, support=told)
 
 
 def _priority(thing: SceneObject) -> tuple:
@@ -93,9 +103,11 @@ def _placed(thing: SceneObject, site: Site, taken: Occupancy, done: dict[int, Sc
     elif thing.support == "object":
         things = [done[k] for k in sorted(done)]
         box = stacked(box_of(thing), things, taken, lift=LIFT)
-        box = box or _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
+        if box is None:
+            thing = dataclasses.replace(thing, support="floor")
+            box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
     else:
-        thing = flattened(thing, FLAT) if thing.support == "flat" else thing
+        thing = flattened(thing, PRESSED) if thing.support == "flat" else thing
         box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
     return moved_to(thing, box) if box is not None else None
 

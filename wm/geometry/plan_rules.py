@@ -14,7 +14,7 @@ from wm.geometry.openings import Place, describe, place_openings
 from wm.geometry.plan_records import FloorPlan, Room, Violation
 from wm.geometry.walls import SHARED, room_polygons
 
-BODY = 0.3  # metres: a room must hold a disk of this radius to be entered
+LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius to be entered
 LEAST_AREA = 0.01  # square metres; less is no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
 MOST_OVERLAPS = 256  # more are not listed, and nothing else is asked of such a heap
@@ -35,7 +35,7 @@ RULES = {
     "room_too_small": "Inside its walls a room is one piece that holds a disk of 0.3 m radius.",
     "rooms_overlap": "Rooms touch at most, within 0.01 m.",
     "opening_off_wall": "An opening lies on a wall of its room, between the corners inside and below the ceiling.",
-    "openings_overlap": "Openings do not overlap; the two entries of one door agree.",
+    "openings_overlap": "Openings keep 0.01 m of wall between them; the two entries of one door agree.",
     "door_exterior": "Doors and passages lead into exactly one other room.",
     "window_interior": "Windows look outside.",
     "unreachable": "Every room can be reached from every other through doors and passages.",
@@ -90,8 +90,8 @@ def _shape_fault(room: Room) -> Violation | None:
         return Violation(room.id, "self_intersection", f"floor_polygon is not simple: {shapely.is_valid_reason(polygon)}")
     if polygon.area < LEAST_AREA:
         return Violation(room.id, "zero_area", f"floor_polygon covers less than {LEAST_AREA:g} m^2")
-    if polygon.buffer(-BODY).is_empty:
-        return Violation(room.id, "room_too_small", f"no disk of {BODY:g} m radius fits into floor_polygon")
+    if polygon.buffer(-LEAST_DISK).is_empty:
+        return Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits into floor_polygon")
     return None
 
 
@@ -125,8 +125,8 @@ def _cramped(plan: FloorPlan) -> list[Violation]:
     for room, floor in zip(plan.rooms, interiors(plan)):
         if floor is None:
             violations.append(Violation(room.id, "room_too_small", "its walls leave no floor in one piece"))
-        elif floor.buffer(-BODY).is_empty:
-            violations.append(Violation(room.id, "room_too_small", f"no disk of {BODY:g} m radius fits between its walls"))
+        elif floor.buffer(-LEAST_DISK).is_empty:
+            violations.append(Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits between its walls"))
     return violations
 
 

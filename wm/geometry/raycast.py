@@ -90,12 +90,17 @@ def cast(scene: Mesh | RayScene, camera: Camera) -> GBuffer:
     return gbuffer
 
 
-def cast_rays(scene: RayScene, origins: Float[np.ndarray, "r 3"], directions: Float[np.ndarray, "r 3"]) -> RayHits:
+def cast_rays(
+    scene: Mesh | RayScene, origins: Float[np.ndarray, "r 3"], directions: Float[np.ndarray, "r 3"]
+) -> RayHits:
     """The nearest hit of each ray, from either side of a face. Directions need not be unit; a ray with a NaN hits nothing.
 
     A ray that starts on a surface may hit that surface: start it 1e-4 m or more in front.
+
+    Raises: ValueError for origins and directions that do not belong together, or a broken mesh.
     """
     _check_shapes(origins, directions)
+    scene = ray_scene(scene)
     count = len(origins)
     hits = RayHits(
         t=np.empty(count, np.float32),
@@ -116,14 +121,23 @@ def cast_rays(scene: RayScene, origins: Float[np.ndarray, "r 3"], directions: Fl
 
 
 def occluded(
-    scene: RayScene,
+    scene: Mesh | RayScene,
     origins: Float[np.ndarray, "r 3"],
     directions: Float[np.ndarray, "r 3"],
     max_distance: Float[np.ndarray, "r"] | float = np.inf,
 ) -> Bool[np.ndarray, "r"]:
-    """Whether anything stands in each ray's way before `max_distance` (in units of the direction's length)."""
+    """Whether anything stands in each ray's way before `max_distance` (in units of the direction's length).
+
+    Nothing stands before a distance that is zero, negative or NaN.
+
+    Raises: ValueError for rays or distances that do not belong together, or a broken mesh.
+    """
     _check_shapes(origins, directions)
-    limits = np.broadcast_to(np.asarray(max_distance), origins.shape[:1])
+    limits = np.asarray(max_distance)
+    if limits.shape not in ((), origins.shape[:1]):
+        raise ValueError(f"max_distance must be one number or [{len(origins)}], one for each ray; it is {list(limits.shape)}")
+    limits = np.broadcast_to(limits, origins.shape[:1])
+    scene = ray_scene(scene)
     blocked = np.empty(len(origins), bool)
 
     def trace(part: slice) -> None:

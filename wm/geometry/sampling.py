@@ -29,7 +29,11 @@ def sample_atlas(
 
     Returns:
       rgb [h, w, 3] float32 (0 where nothing is known) and alpha [h, w] float32 in [0, 1] (0 off the atlas).
+
+    Raises:
+      ValueError: the G-buffer is not of the camera's size.
     """
+    check_camera_of(gbuffer, camera)
     chart = pixel_charts(atlas, gbuffer).ravel()
     depth = gbuffer.depth.ravel()
     rgb = np.zeros((len(chart), 3), np.float32)
@@ -69,6 +73,13 @@ def _bilinear(
                 color[k] += share * fetched[:, k]
     color /= np.where(known > 0, known, 1)
     return color.T, np.minimum(known / np.where(total > 0, total, 1), 1)
+
+
+def check_camera_of(gbuffer: GBuffer, camera: Camera) -> None:
+    """Raises: ValueError if a G-buffer is not as large as the images of the camera it is said to be of."""
+    if gbuffer.depth.shape != (camera.height, camera.width):
+        found = " x ".join(map(str, gbuffer.depth.shape))
+        raise ValueError(f"the G-buffer of another camera: it has {found} pixels, the camera {camera.height} x {camera.width}")
 
 
 def pixel_charts(atlas: Atlas, gbuffer: GBuffer) -> np.ndarray:

@@ -1,7 +1,8 @@
 """Triangles without height, as booleans leave them where several corners lie on one line: removed by flips.
 
 A flat triangle a, b, c with b between a and c borders a triangle c, a, d across its longest edge; a, b, d and b, c, d take the
-place of both. Nothing moves by more than the triangle's height, the mesh stays closed, and every face gets a normal.
+place of both, where both are then higher than HEIGHT. Nothing moves by more than the triangle's height and the mesh stays closed.
+Corners that coincide stay as they are, and with them the triangles between them that have no normal.
 """
 
 import numpy as np
@@ -21,7 +22,8 @@ def heights(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
 def flip_slivers(vertices: np.ndarray, faces: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The faces and labels of a closed mesh with its flat triangles flipped away; flips take the neighbour's label.
 
-    Flat triangles that only border each other stay (there is nothing to flip them into).
+    Flat triangles that only border each other stay (there is nothing to flip them into), and so do those whose flip would leave
+    another flat one: two of their corners coincide.
     """
     flat = set(np.flatnonzero(heights(vertices, faces) < HEIGHT).tolist())
     if not flat:
@@ -44,7 +46,10 @@ def flip_slivers(vertices: np.ndarray, faces: np.ndarray, labels: np.ndarray) ->
             d = next(int(v) for v in faces[other] if v not in (a, c))
             if (b, d) in face_at or (d, b) in face_at:
                 continue
-            faces[face], faces[other] = (a, b, d), (b, c, d)
+            flipped = np.array([(a, b, d), (b, c, d)])
+            if heights(vertices, flipped).min() < HEIGHT:
+                continue
+            faces[face], faces[other] = flipped
             labels[face] = labels[other]
             del face_at[a, c], face_at[c, a]
             for triangle in (face, other):

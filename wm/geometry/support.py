@@ -1,7 +1,8 @@
 """What a thing rests on, told by the words of its label: the floor, a wall, the ceiling, another thing, or flat on the floor.
 
 Words are compared whole, so that a "large indoor plant" is no door. The last word names the thing ("tv stand" is a stand), the
-words before it say which ("floor lamp", "wall clock"); where no word tells, the shape does.
+words before it say which ("floor lamp", "wall clock"); of "X of Y" it is X that is meant ("painting of flowers"), unless X only
+counts ("pile of books"). Where no word tells, the shape does.
 Source: WorldMesh, supplement, "Object Placement" (class from label and aspect ratio); the vocabulary and its rules are ours.
 """
 
@@ -35,7 +36,13 @@ _SUPPORT = {noun: support for support, nouns in _NOUNS.items() for noun in nouns
 _STRUCTURE = frozenset(
     ("wall", "floor", "ceiling", "door", "doorway", "window", "archway", "passage", "skirting", "baseboard", "room")
 )
-_ON_TABLES = frozenset(("table", "desk", "potted", "small", "tabletop", "pile", "stack"))
+_ON_TABLES = frozenset(("table", "desk", "potted", "small", "tabletop"))
+_COUNTS = frozenset(
+    ("pile", "stack", "heap", "set", "pair", "couple", "bunch", "bundle", "group", "cluster", "row", "collection", "suit")
+)
+"""Words before an "of" that say how many, and not what."""
+_F_PLURALS = {"shelves": "shelf", "leaves": "leaf", "knives": "knife", "scarves": "scarf", "halves": "half", "loaves": "loaf"}
+"""Ends of plurals in -ves whose singular is not in -ve: stoves and sleeves are the rule."""
 _COVERS_WINDOWS = frozenset(("curtain", "drape", "blind"))
 _FLAT_SHARE = 0.04
 """Height over the smaller side of the footprint below which a thing without a telling word lies flat."""
@@ -49,7 +56,12 @@ _SMALL_PLANT = 0.6
 
 def words_of(label: str) -> list[str]:
     """The words of a label in lower case and singular: "Two Flower-pots" gives two, flower, pot."""
-    return [_singular(word) for word in re.findall(r"[a-z]+", label.lower())]
+    return [_singular(word) for word in _words(label)]
+
+
+def naming_words(label: str) -> list[str]:
+    """The words that name the thing, in lower case and singular: picture of "a picture of a window", book of "pile of books"."""
+    return [_singular(word) for word in _naming(_words(label))]
 
 
 def support_of(label: str, size: Sequence[float], low: float = 0.0) -> str:
@@ -60,7 +72,7 @@ def support_of(label: str, size: Sequence[float], low: float = 0.0) -> str:
       size: its width, depth and height, metres; used where the label does not tell.
       low: height of its lowest point above the floor as it was seen, metres.
     """
-    words = words_of(label)
+    words = naming_words(label)
     named = [_MODIFIERS[word] for word in words[:-1] if word in _MODIFIERS]
     if named:
         return named[0]
@@ -68,22 +80,20 @@ def support_of(label: str, size: Sequence[float], low: float = 0.0) -> str:
         return "object"
     if words and words[-1] == "plant" and float(size[2]) < _SMALL_PLANT and low > _RAISED:
         return "object"
-    if "of" in words[:-1]:  # a pile of books, a vase of flowers
-        words = [word for word in words if word != "of"]
     if words and words[-1] in _SUPPORT:
         return _SUPPORT[words[-1]]
     return _support_by_shape(size, low)
 
 
 def is_structure(label: str) -> bool:
-    """Whether a label names a part of the building: "wooden door", not "floor lamp" and not "large indoor plant"."""
-    words = words_of(label)
+    """Whether a label names a part of the building: "wooden door", not "floor lamp" and not "photo of a door"."""
+    words = naming_words(label)
     return bool(words) and words[-1] in _STRUCTURE
 
 
 def is_plural(label: str) -> bool:
-    """Whether a label names several things that go as one: "curtains", "candles", "flowers"."""
-    last = label.lower().split()[-1:]
+    """Whether a label names several things that go as one: "curtains", "pile of books", not "vase of flowers"."""
+    last = _naming(_words(label))[-1:]
     return bool(last) and _singular(last[0]) != last[0]
 
 
@@ -101,9 +111,27 @@ def _support_by_shape(size: Sequence[float], low: float) -> str:
     return "floor"
 
 
+def _words(label: str) -> list[str]:
+    return re.findall(r"[a-z]+", label.lower())
+
+
+def _naming(words: list[str]) -> list[str]:
+    """Of words with "of" among them, those before it, or those behind it where the one before it only counts."""
+    while "of" in words[1:]:
+        k = words.index("of", 1)
+        counts = _singular(words[k - 1]) in _COUNTS and k + 1 < len(words)
+        words = words[k + 1 :] if counts else words[:k]
+    return words
+
+
 def _singular(word: str) -> str:
-    if word.endswith("ves"):
-        return word[:-3] + "f"
+    for plural, singular in _F_PLURALS.items():
+        if word.endswith(plural):
+            return word.removesuffix(plural) + singular
+    if word.endswith("ies") and len(word) > 4:  # tapestries, and not ties
+        return word[:-3] + "y"
+    if word.endswith(("ches", "shes", "xes", "sses")):
+        return word[:-2]
     if word.endswith("s") and not word.endswith("ss"):
         return word[:-1]
     return word

@@ -21,7 +21,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from wm.geometry.atlas import chart_image
-from wm.geometry.sampling import pixel_charts
+from wm.geometry.sampling import check_camera_of, pixel_charts
 from wm.schema import TextureSettings
 from wm.types import Atlas, Camera, GBuffer, SurfaceKind
 
@@ -67,13 +67,17 @@ def accumulate(
       atlas: the texture so far; it is not changed.
       gbuffer: what the camera sees of the true scaffold: the mesh the atlas was built from (or one that begins with its faces).
       camera: the camera of that G-buffer.
-      rgb: the view's image, sRGB in [0, 1].
+      rgb: the view's image, sRGB in [0, 1]; a pixel with a colour that is not finite is left out, as if it were not usable.
       room: the view's room; surfaces of other rooms but reveals are left alone, though the view may see them through a door.
       settings: facing, occlusion and texel knobs.
       usable: pixels that may be used; None for all.
 
     Returns:
       An atlas that shares all but colour and weight with the given one.
+
+    Raises:
+      ValueError: G-buffer, image or mask are not of the camera's size or not of their type, the atlas has no surface of the
+        room, or `min_facing` is not in [0, 1).
     """
     copied = dataclasses.replace(atlas, color=atlas.color.copy(), weight=atlas.weight.copy())
     accumulate_in_place(copied, gbuffer, camera, rgb, room, settings, usable=usable)
@@ -90,22 +94,50 @@ def accumulate_in_place(
     *,
     usable: Bool[np.ndarray, "h w"] | None = None,
 ) -> None:
-    """As `accumulate`, into the colour and weight of an atlas that the caller owns: a view costs what it sees, not the scene."""
+    """As `accumulate`, into the colour and weight of an atlas that the caller owns: a view costs what it sees, not the scene.
+
+    Raises: as `accumulate`, before anything is changed.
+    """
+    _check(atlas, gbuffer, camera, rgb, room, settings, usable)
+    pixels = np.dstack([rgb, gbuffer.depth]).astype(np.float32, copy=False)
+    finite = np.isfinite(pixels).all(axis=-1)
+    pixels[~finite] = 0  # a share of nothing, which NaN times zero is not
     shown = pixel_charts(atlas, gbuffer)
     # A door's reveal is numbered with one of its rooms and seen from both: either's views paint it.
     mine = np.append((atlas.chart_room == room) | (atlas.chart_kind == SurfaceKind.REVEAL), False)[shown]
-    shown = np.where(mine if usable is None else mine & usable, shown, np.int32(-1))
+    shown = np.where(finite & mine if usable is None else finite & mine & usable, shown, np.int32(-1))
     picture = _Picture(
         camera=camera,
         shown=shown.ravel(),
         purity=_purity(shown).ravel(),
-        pixels=np.dstack([rgb, gbuffer.depth]).astype(np.float32, copy=False).reshape(-1, 4),
+        pixels=pixels.reshape(-1, 4),
     )
     for chart in np.flatnonzero(np.bincount(shown[shown >= 0], minlength=len(atlas.chart_start))):
         rows, columns = (int(k) for k in atlas.chart_shape[chart])
         step = max(1, _BLOCK // columns)
         for first in range(0, rows, step):
             _add(atlas, picture, int(chart), slice(first, min(first + step, rows)), settings)
+
+
+def _check(
+    atlas: Atlas,
+    gbuffer: GBuffer,
+    camera: Camera,
+    rgb: np.ndarray,
+    room: int,
+    settings: TextureSettings,
+    usable: np.ndarray | None,
+) -> None:
+    check_camera_of(gbuffer, camera)
+    size = camera.height, camera.width
+    if rgb.shape != (*size, 3) or not np.issubdtype(rgb.dtype, np.floating):
+        raise ValueError(f"rgb must be floating [{size[0]}, {size[1]}, 3] in [0, 1]; it is {rgb.dtype} {list(rgb.shape)}")
+    if usable is not None and (usable.shape != size or usable.dtype != bool):
+        raise ValueError(f"usable must be bool [{size[0]}, {size[1]}]; it is {usable.dtype} {list(usable.shape)}")
+    if len(atlas.chart_room) and room not in atlas.chart_room:
+        raise ValueError(f"room {room} has no surface in the atlas; it holds rooms {np.unique(atlas.chart_room).tolist()}")
+    if not 0 <= settings.min_facing < 1:
+        raise ValueError(f"min_facing is a cosine in [0, 1), not {settings.min_facing}")
 
 
 def _add(atlas: Atlas, picture: _Picture, chart: int, rows: slice, settings: TextureSettings) -> None:

@@ -19,13 +19,8 @@ EXACT = 1e-7
 """Metres and radians below which nothing is moved, so that placing again changes no bit."""
 
 
-def to_world(thing: SceneObject, T_world_cam: Float[np.ndarray, "4 4"]) -> SceneObject:
-    """A thing that was reconstructed in a camera's frame, in the world's."""
-    return transformed(thing, T_world_cam)
-
-
 def transformed(thing: SceneObject, motion: Float[np.ndarray, "4 4"]) -> SceneObject:
-    """A thing after a rigid motion of the world."""
+    """A thing after a rigid motion [4, 4] of the world, or out of another frame into it (T_world_cam)."""
     return dataclasses.replace(
         thing,
         vertices=thing.vertices @ motion[:3, :3].T + motion[:3, 3],
@@ -34,7 +29,10 @@ def transformed(thing: SceneObject, motion: Float[np.ndarray, "4 4"]) -> SceneOb
 
 
 def levelled(thing: SceneObject) -> SceneObject:
-    """The thing with the most level face of its oriented box made level, its frame upright and its size measured anew."""
+    """The thing with the most level face of its oriented box made level, its frame upright and its size measured anew.
+
+    What is level within EXACT, its z axis up, is returned as it is, with the size it says it has.
+    """
     axes = thing.T_world_object[:3, :3]
     k = int(np.argmax(np.abs(axes[2])))
     up = axes[:, k] * math.copysign(1.0, axes[2, k])

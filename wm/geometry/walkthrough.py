@@ -78,7 +78,7 @@ def walkthrough(
 def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
     """The widest floor that joins all rooms: around all furniture, else a slimmer walker, else over low furniture too."""
     things = object_corners(mesh)
-    tall = [corners for corners in things if corners[:, 2].max() > height - _HEADROOM]
+    tall = [corners for corners in things if corners[..., 2].max() > height - _HEADROOM]
     unreached = []
     for radius, obstacles in ((RADIUS, things), (0.6 * RADIUS, things), (RADIUS, tall), (0.4 * RADIUS, tall)):
         area = body_floor(plan, obstacles, height=height + _HEADROOM, radius=radius)

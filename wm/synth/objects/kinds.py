@@ -6,7 +6,7 @@ import functools
 import numpy as np
 from jaxtyping import Float
 
-from wm.geometry.support import words_of
+from wm.geometry.support import naming_words
 from wm.synth.procedural.finish import Style
 from wm.synth.procedural.furniture import KINDS, Piece, make_piece
 from wm.synth.procedural.inventory import lamp_sorts, with_lamp
@@ -23,7 +23,7 @@ _OTHER_WORDS = {
     "trellis": "wall ivy", "hedge": "topiary",
 }  # fmt: skip
 """What the last word of a label means where no kind is called so."""
-_KIND_BY_WORDS = {tuple(words_of(kind)): kind for kind in KINDS}
+_KIND_BY_WORDS = {tuple(naming_words(kind)): kind for kind in KINDS}
 ANYTHING = "chest"
 """The template of a label that says nothing: a box with a lid."""
 
@@ -45,7 +45,7 @@ class Template:
 
 def kind_of(label: str) -> str:
     """The furniture kind that a label names, by whole words: a key of KINDS."""
-    words = tuple(words_of(label))
+    words = tuple(naming_words(label))
     for start in range(len(words)):
         if words[start:] in _KIND_BY_WORDS:
             return _KIND_BY_WORDS[words[start:]]

@@ -21,7 +21,7 @@ from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement import Placement, place_objects
 from wm.geometry.raycast import RayScene, build_ray_scene, cast
 from wm.geometry.site import Site, room_site
-from wm.geometry.upright import levelled, to_world
+from wm.geometry.upright import levelled, transformed
 from wm.geometry.upright_box import box_of
 from wm.geometry.views import bootstrap_cameras
 from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
@@ -193,7 +193,7 @@ def _reconstructed(
         if result is None:
             return None
         T_world_cam = np.linalg.inv(np.asarray(thing.sightings[0].camera.T_cam_world, np.float64))
-        return dataclasses.replace(result, thing=to_world(result.thing, T_world_cam))
+        return dataclasses.replace(result, thing=transformed(result.thing, T_world_cam))
 
     first = [made(thing, k) for k, thing in enumerate(things)]
     groups = joined(things, [box_of(levelled(result.thing)) if result is not None else None for result in first])

@@ -18,6 +18,7 @@ from wm.types import SurfaceKind
 
 NEAR = 0.5  # metres within which a pane is found by rays and not sampled
 SOFT = 0.05  # square metres added to squared distances: no source is a point
+_AT_LAMP = np.float32(0.03)  # metres before a lamp's point at which shadow rays end; what is nearer gets no light of it
 _ROWS = 400  # light points a chunk: with 80 rays each, what one core traces at a time
 
 
@@ -189,8 +190,9 @@ def _from_emitter(
     form *= emitter.areas.astype(np.float32) / (np.float32(np.pi) * (squared + np.float32(SOFT)))
     if emitter.sky:
         form *= _sky(toward[..., 2]) * (distance > NEAR)
+    form *= distance >= _AT_LAMP
     row, column = np.nonzero(form > 1e-6)
-    blocked = occluded(scene, origin[row], toward[row, column], distance[row, column] - np.float32(0.03))
+    blocked = occluded(scene, origin[row], toward[row, column], distance[row, column] - _AT_LAMP)
     form[row[blocked], column[blocked]] = 0.0
     return form @ emitter.radiance
 
