@@ -32,7 +32,7 @@ class SceneContext:
 class Condition:
     """What the image model is shown of the scaffold from one camera: the X of the paper."""
 
-    rgb: np.ndarray  # [h, w, 3] textured objects, alpha-blended accumulated texture, grayscale depth elsewhere
+    rgb: np.ndarray  # [h, w, 3] float32 sRGB in [0, 1]: textured objects, blended accumulated texture, grayscale depth elsewhere
     known: np.ndarray  # [h, w] float32 in [0, 1]: how far rgb shows appearance and not depth
     depth: np.ndarray  # [h, w] float32 z-depth of the conditioning scaffold, metres, 0 where nothing is hit
     objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none; so that a box is not taken for a crate
@@ -42,8 +42,10 @@ class Condition:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ImageRequest:
+    """What an image model is asked for one view."""
+
     condition: Condition
-    reference: np.ndarray | None  # [h, w, 3] a finished view of the scene, for style; None for the first
+    reference: np.ndarray | None  # [h, w, 3] float32 sRGB in [0, 1], a finished view of the scene; None for the first
     prompt: str
     view: View
     seed: int
@@ -51,7 +53,9 @@ class ImageRequest:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ImageResult:
-    rgb: np.ndarray  # [h, w, 3] float32 sRGB in [0, 1]
+    """What an image model made of it."""
+
+    rgb: np.ndarray  # [h, w, 3] floating sRGB in [0, 1], of the size of the view's camera (wm.synth.checked)
     drawn_depth: np.ndarray | None = None  # [h, w] what an offline model knows it drew; real models have none
     drawn_object: np.ndarray | None = None  # [h, w] int32 likewise: index into drawn_labels, OUTSIDE for structure
     drawn_labels: tuple[str, ...] = ()
@@ -88,7 +92,7 @@ class Reconstruction:
 @runtime_checkable
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:
-        """One image Phi(X, reference, theme; seed)."""
+        """One image Phi(X, reference, theme; seed); the same request gives the same image."""
         ...
 
 
@@ -106,7 +110,7 @@ class WorldBackend(ImageBackend, Protocol):
     """An image backend that also knows the world it paints: the ground truth of held-out views."""
 
     def truth(self, view: View) -> np.ndarray:
-        """[h, w, 3] the image that the exact world would show."""
+        """[h, w, 3] the image that the exact world would show, as `ImageResult.rgb`. Several threads call it at once."""
         ...
 
 
@@ -152,7 +156,13 @@ class ReconstructionBackend(Protocol):
 @runtime_checkable
 class DepthBackend(Protocol):
     def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
-        """[h, w] depth up to scale and shift implied by an image, None where no estimate can be given."""
+        """[h, w] floating, of the image's size: how far away each pixel is; None where no estimate can be given.
+
+        It is z-depth up to a positive scale and a shift, neither of which is known: larger is farther, and zero and negative
+        values are as good as others. So it is not disparity: a model that gives inverse depth gives its reciprocal here, which
+        takes one that knows the shift of its inverse depth. NaN, and nothing else, says that a pixel has no estimate (infinities
+        are taken for it); verification counts such a pixel as one that disagrees.
+        """
         ...
 
 
@@ -182,8 +192,10 @@ def make_backend(group: str, config: Any, context: SceneContext | None = None) -
       context: the scene; None for the language backend, which comes before it.
 
     Raises:
-      ValueError: the name is not one of the group's choices.
+      ValueError: there is no such group, or the name is not one of its choices.
     """
+    if group not in CHOICES:
+        raise ValueError(f"no group of backends is called {group!r}; groups: {', '.join(CHOICES)}")
     if config.name not in CHOICES[group]:
         raise ValueError(f"unknown {group} backend {config.name!r}; choices: {', '.join(CHOICES[group])}")
     module = importlib.import_module(f"wm.synth.{group}.{config.name}")

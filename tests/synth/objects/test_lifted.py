@@ -54,7 +54,7 @@ class Photographs:
     what they show is known."""
 
     things: list  # what was photographed
-    found: dict = dataclasses.field(default_factory=dict)  # id of an image -> (relative depth, segments)
+    found: dict = dataclasses.field(default_factory=dict)  # bytes of an image -> (relative depth, segments)
 
     def generate(self, request: ImageRequest) -> ImageResult:
         scene = build_ray_scene(assemble_scene(bare().structure, self.things))
@@ -63,14 +63,14 @@ class Photographs:
         rgb = np.full((*owner.shape, 3), 0.4, np.float32)
         rgb[owner >= 0] = (0.5, 0.3, 0.2)
         segments = [Segment(f"oak {thing.label}", owner == k) for k, thing in enumerate(self.things)]
-        self.found[id(rgb)] = (0.5 * gbuffer.depth + 0.1, segments)
+        self.found[rgb.tobytes()] = (0.5 * gbuffer.depth + 0.1, segments)
         return ImageResult(rgb=rgb)
 
     def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
-        return self.found[id(result.rgb)][0]
+        return self.found[result.rgb.tobytes()][0]
 
     def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
-        return self.found[id(result.rgb)][1]
+        return self.found[result.rgb.tobytes()][1]
 
 
 def test_photographs_with_depth_and_masks_are_lifted_without_knowing_what_was_drawn():

@@ -40,6 +40,7 @@ from wm.synth.backends import (
     close_backend,
     make_backend,
 )
+from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.condition import depth_grey
 from wm.synth.objects.coloring import unlit
 from wm.synth.objects.drawn_segments import DrawnSegmentation
@@ -219,7 +220,8 @@ def draw(
         seed=seed,
     )
     result = models.image.generate(request)
-    estimate = models.depth.estimate(result, seed=seed)
+    result = dataclasses.replace(result, rgb=checked_image(result.rgb, request.view))
+    estimate = checked_estimate(models.depth.estimate(result, seed=seed), request.view)
     depth = metric_depth(estimate, gbuffer.depth, seed=seed) if estimate is not None else None
     if depth is None:
         return None
