@@ -168,10 +168,10 @@ class DepthBackend(Protocol):
 
 @runtime_checkable
 class ClosableBackend(Protocol):
-    """A backend that holds more than memory, such as processes."""
+    """A backend of any group that holds more than Python frees by itself, such as processes or a device's memory."""
 
     def close(self) -> None:
-        """Ends what it holds."""
+        """Ends what it holds. Whoever made the backend closes it, also after an error; closing twice is closing once."""
         ...
 
 
@@ -203,6 +203,6 @@ def make_backend(group: str, config: Any, context: SceneContext | None = None) -
 
 
 def close_backend(backend: Any) -> None:
-    """Ends the processes and threads that a backend holds, if it holds any."""
+    """Ends what a backend holds, if it holds anything."""
     if isinstance(backend, ClosableBackend):
         backend.close()

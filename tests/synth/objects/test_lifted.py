@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.synth.objects.scenes import STYLE, bare, piece
+from tests.synth.recording import recorded
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement_laws import violations
 from wm.geometry.raycast import build_ray_scene, cast
@@ -127,6 +128,17 @@ def test_its_models_end_with_it_and_with_the_scene_they_are_of():
     backend.close()
     backend.close()
     assert backend._models is None
+
+
+def test_all_of_its_models_are_closed(monkeypatch):
+    log = recorded(monkeypatch, "image", "depth")
+    small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
+    image = dataclasses.replace(COARSE, name="recording")
+    backend = make_backend("objects", small, bare()).with_models(image, DepthConfig(name="recording"))
+    backend.lift(bare(), 1)
+    backend.close()
+    backend.close()
+    assert [entry for entry in log if "closed" in entry] == ["depth closed", "image closed"] == log[-2:]
 
 
 @pytest.mark.slow

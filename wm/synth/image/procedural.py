@@ -110,8 +110,8 @@ class ProceduralImages:
             return self._sceneries[which]
 
     def close(self) -> None:
-        """Ends the threads and the processes of its worlds; what they are at is finished first, what waits is dropped."""
-        self._pool.shutdown(cancel_futures=True)
+        """Ends the processes of its worlds, and its threads as soon as they are done; what they are at is not waited for."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
         for scenery in self._sceneries.values():
             if isinstance(scenery.world, WorkerWorld):
                 scenery.world.close()

@@ -12,6 +12,7 @@ the camera gives way.
 Source: WorldMesh, "Object Instantiation" and supplement, "Object Segmentation", "Object Placement".
 """
 
+import contextlib
 import dataclasses
 
 import numpy as np
@@ -137,7 +138,7 @@ class LiftedObjects:
     def models(self, imagined: SceneContext, image: ImageBackend | None = None) -> Models:
         """The selected image model, or the one given; the selected depth model; the offline segmentation and reconstruction.
 
-        Whoever asks for an image model closes it.
+        Whoever asks for them closes them.
         """
         return Models(
             image=image if image is not None else _image_model(self._image, imagined),
@@ -148,9 +149,10 @@ class LiftedObjects:
 
     def close(self) -> None:
         """Ends what it holds; furnishing again makes it anew."""
-        if self._models is not None:
-            close_backend(self._models.image)
-        self._latest = self._models = None
+        models, self._latest, self._models = self._models, None, None
+        with contextlib.ExitStack() as done:
+            for backend in () if models is None else (models.image, models.depth, models.segmentation, models.reconstruction):
+                done.callback(close_backend, backend)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

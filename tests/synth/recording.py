@@ -1,0 +1,54 @@
+"""The choice `recording` of a group of backends: the offline one, with a log of what becomes of it.
+
+It stands in for a model of the user's own, so it can do what the protocols ask of one and nothing that they do not: an image
+model that knows no world, begins on nothing early, and may fail.
+"""
+
+import importlib
+import sys
+import types
+
+from wm.synth.backends import CHOICES, close_backend
+
+
+class Recording:
+    def __init__(self, group, inner, log, fails_at):
+        self.group, self.inner, self.log, self.fails_at = group, inner, log, fails_at
+        self._note("made")
+
+    def _note(self, what):
+        assert f"{self.group} closed" not in self.log, f"{self.group} {what} after it was closed"
+        self.log.append(f"{self.group} {what}")
+
+    def _asked(self):
+        self._note("asked")
+        if self.log.count(f"{self.group} asked") == self.fails_at:
+            raise MemoryError(f"the {self.group} model is out of memory")
+
+    def generate(self, request):
+        self._asked()
+        return self.inner.generate(request)
+
+    def estimate(self, result, *, seed):
+        self._asked()
+        return self.inner.estimate(result, seed=seed)
+
+    def close(self):
+        self._note("closed")
+        close_backend(self.inner)
+
+
+def recorded(monkeypatch, *groups, fails=None):
+    """Registers `recording` in these groups and returns its log; `fails` says by group at which question it fails."""
+    log = []
+    for group in groups:
+        _register(monkeypatch, group, log, (fails or {}).get(group))
+    return log
+
+
+def _register(monkeypatch, group, log, fails_at):
+    offline = importlib.import_module(f"wm.synth.{group}.procedural")
+    module = types.ModuleType(f"wm.synth.{group}.recording")
+    vars(module)["make"] = lambda config, context: Recording(group, offline.make(config, context), log, fails_at)
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    monkeypatch.setitem(CHOICES, group, (*CHOICES[group], "recording"))
