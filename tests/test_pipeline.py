@@ -160,6 +160,8 @@ def test_the_models_that_paint_are_closed_when_all_is_painted(monkeypatch, tmp_p
     assert result.yield_share == 1.0 and not heldout.known  # a model that knows no world has no truth of held-out views
     assert log[:2] == ["image made", "depth made"] and log[-2:] == ["depth closed", "image closed"]
     assert {"image asked", "depth asked"} == set(log[2:-2])
+    assert {request.task for request in log.requests} == {"paint"}
+    assert any("In view: a window" in request.prompt for request in log.requests)
 
 
 @pytest.mark.parametrize("group", ["image", "depth"])

@@ -11,6 +11,14 @@ import types
 from wm.synth.backends import CHOICES, close_backend
 
 
+class Log(list):
+    """Lines such as "image asked"; and the requests to image models."""
+
+    def __init__(self):
+        super().__init__()
+        self.requests = []
+
+
 class Recording:
     def __init__(self, group, inner, log, fails_at):
         self.group, self.inner, self.log, self.fails_at = group, inner, log, fails_at
@@ -26,6 +34,7 @@ class Recording:
             raise MemoryError(f"the {self.group} model is out of memory")
 
     def generate(self, request):
+        self.log.requests.append(request)
         self._asked()
         return self.inner.generate(request)
 
@@ -40,7 +49,7 @@ class Recording:
 
 def recorded(monkeypatch, *groups, fails=None):
     """Registers `recording` in these groups and returns its log; `fails` says by group at which question it fails."""
-    log = []
+    log = Log()
     for group in groups:
         _register(monkeypatch, group, log, (fails or {}).get(group))
     return log

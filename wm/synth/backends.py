@@ -8,7 +8,7 @@ what the paper's would (condition, reference, prompt, seed); the offline ones ma
 import dataclasses
 import importlib
 from collections.abc import Sequence
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -45,10 +45,11 @@ class ImageRequest:
     """What an image model is asked for one view."""
 
     condition: Condition
-    reference: np.ndarray | None  # [h, w, 3] float32 sRGB in [0, 1], a finished view of the scene; None for the first
+    reference: np.ndarray | None  # [h, w, 3] float32 sRGB in [0, 1], for style a finished view; to furnish, the room furnished
     prompt: str
     view: View
     seed: int
+    task: Literal["paint", "furnish"] = "paint"  # the view as the scaffold has it | the empty room that it has, furnished
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

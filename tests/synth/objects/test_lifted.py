@@ -26,7 +26,7 @@ from wm.synth.backends import (
     SegmentationBackend,
     make_backend,
 )  # fmt: skip
-from wm.synth.objects.lifted import Models, lift_room, sights
+from wm.synth.objects.lifted import Models, lift_room
 from wm.synth.objects.reconstruction import TemplateReconstruction
 from wm.types import OUTSIDE, View
 
@@ -149,10 +149,24 @@ def test_the_same_seed_gives_the_same_bytes():
     assert [thing.slot_colors.tobytes() for thing in again] == [thing.slot_colors.tobytes() for thing in room.objects]
 
 
-def test_images_say_where_doors_are():
-    _, room = lifted()
-    said = [sights(drawing.camera, room_site(bare().plan, 1)) for drawing in room.drawings]
-    assert any("doorway" in text for texts in said for text in texts)
+def test_what_a_model_is_asked_is_what_it_is_shown(monkeypatch):
+    """An empty room, said to be empty and shown so; to the second camera also the room as the first shows it furnished."""
+    log = recorded(monkeypatch, "image")
+    small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
+    backend = make_backend("objects", small, bare()).with_models(dataclasses.replace(COARSE, name="recording"), DepthConfig())
+    room = backend.lift(bare(), 1)
+    backend.close()
+    first, second = log.requests
+    for request in (first, second):
+        condition = request.condition
+        assert (request.task, condition.objects, condition.object, condition.wall_texture) == ("furnish", "none", None, False)
+        np.testing.assert_array_equal(condition.depth, cast(bare().structure, request.view.camera).depth)
+        assert not condition.known.any() and np.ptp(condition.rgb, axis=-1).max() == 0
+        assert "empty" in request.prompt and "Furnish the room" in request.prompt and "take no object" not in request.prompt
+        assert ("second picture" in request.prompt) == (request.reference is not None)
+    assert first.reference is None
+    np.testing.assert_array_equal(second.reference, room.drawings[0].result.rgb)
+    assert any("In view: a doorway" in request.prompt for request in (first, second))
 
 
 def test_it_is_image_driven_and_refuses_a_density_that_is_no_share():

@@ -17,7 +17,6 @@ import dataclasses
 
 import numpy as np
 
-from wm.geometry.camera import camera_center
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement import Placement, place_objects
 from wm.geometry.raycast import RayScene, build_ray_scene, cast
@@ -51,7 +50,8 @@ from wm.synth.objects.reconstruction import TemplateReconstruction
 from wm.synth.objects.segments import tidy_segments
 from wm.synth.objects.sightings import Thing, gather, in_room, joined
 from wm.synth.procedural.style import style_of
-from wm.synth.prompts import image_prompt
+from wm.synth.prompts import furnish_prompt
+from wm.synth.sights import sights
 from wm.types import Camera, SceneObject, View
 
 _COARSE = 0.04
@@ -211,15 +211,19 @@ def draw(
     """One image of the room with its segments; None where its depth cannot be told."""
     gbuffer = cast(bare, camera)
     grey = depth_grey(gbuffer, (0.0, max(float(gbuffer.depth.max()), 1e-3)))
-    condition = Condition(rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth)
+    condition = Condition(
+        rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth, objects="none",
+        wall_texture=False,
+    )  # fmt: skip
     plan_room = context.plan.rooms[room]
     seen = sights(camera, room_site(context.plan, room))
     request = ImageRequest(
         condition=condition,
         reference=reference.result.rgb if reference is not None else None,
-        prompt=image_prompt(context.theme, plan_room.name, seen, objects="none", has_reference=False),
+        prompt=furnish_prompt(context.theme, plan_room.name, seen, has_reference=reference is not None),
         view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{0 if reference is None else 1}"),
         seed=seed,
+        task="furnish",
     )
     result = models.image.generate(request)
     result = dataclasses.replace(result, rgb=checked_image(result.rgb, request.view))
@@ -229,21 +233,6 @@ def draw(
         return None
     segments = tidy_segments(models.segmentation.segment(result, seed=seed), depth, min_area=config.min_area)
     return Drawing(camera=camera, result=result, depth=depth, segments=segments)
-
-
-def sights(camera: Camera, site: Site) -> list[str]:
-    """What the empty room shows of doors and windows from a camera, in words: so that no doorway is taken for a picture."""
-    found = []
-    for gap in site.gaps:
-        middle = site.starts[gap.wall] + 0.5 * (gap.low + gap.high) * site.directions[gap.wall]
-        right, _, forward = np.asarray(camera.T_cam_world)[:3, :3]
-        away = np.append(middle, 0.5 * (gap.sill + gap.head)) - camera_center(camera)
-        if away @ forward <= 0.2:
-            continue
-        across = float(away @ right / (away @ forward))
-        side = "on the left" if across < -0.35 else "on the right" if across > 0.35 else "straight ahead"
-        found.append(f"a {'doorway' if gap.kind == 'door' else gap.kind} {side}")
-    return found
 
 
 def _sighting(drawing: Drawing, segment: Segment) -> Sighting:
