@@ -1,8 +1,11 @@
 """What a backend must offer, and the registry that imports the one that was selected.
 
-A backend is a function or a small class behind one of four protocols. Selecting `image=procedural` imports
-`wm.synth.image.procedural` and calls its `make(config, context)`; nothing of the others is imported. Real models see only
-what the paper's would (condition, reference, prompt, seed); the offline ones may also look at the scene they were made for.
+A backend is a small class behind one of the protocols below. Selecting `image=procedural` imports `wm.synth.image.procedural` and
+calls its `make(config, context)`; nothing of the others is imported. Real models see only what the paper's would (condition,
+reference, prompt, seed); the offline ones may also look at the scene they were made for.
+
+To plug a model in: a module in the folder of its group that has `make`, its name in CHOICES, for the groups of conf/ a YAML of
+that name, and its settings as fields of the group's dataclass in wm.schema. What it returns is checked (wm.synth.checked).
 """
 
 import dataclasses
@@ -13,7 +16,7 @@ from typing import Any, Literal, Protocol, runtime_checkable
 import numpy as np
 
 from wm.geometry.site import Site
-from wm.schema import DepthConfig, ImageConfig
+from wm.schema import BACKEND_KEYS, DepthConfig, ImageConfig, RunConfig
 from wm.types import Camera, Mesh, SceneObject, View
 
 
@@ -181,15 +184,22 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "image": ("procedural",),
     "objects": ("procedural", "lifted"),
     "depth": ("procedural",),
+    "segmentation": ("drawn",),
+    "reconstruction": ("templates",),
 }
+DRAWING = ("procedural",)
+"""Image backends whose results tell what they drew (`ImageResult.drawn_*`), as no real model's do."""
+READING = {"depth": ("procedural",), "segmentation": ("drawn",)}
+"""Backends that go by it, and so only with those."""
 
 
 def make_backend(group: str, config: Any, context: SceneContext | None = None) -> Any:
-    """The selected backend of a group ("language", "image", "objects", "depth").
+    """The selected backend of a group, such as "image".
 
     Args:
       group: one of CHOICES.
-      config: the group's dataclass of wm.schema; its `name` selects the module.
+      config: the dataclass of wm.schema that selects it, by the field that BACKEND_KEYS tells: its `name`, or for what `objects`
+        is made with the field of the group.
       context: the scene; None for the language backend, which comes before it.
 
     Raises:
@@ -197,10 +207,32 @@ def make_backend(group: str, config: Any, context: SceneContext | None = None) -
     """
     if group not in CHOICES:
         raise ValueError(f"no group of backends is called {group!r}; groups: {', '.join(CHOICES)}")
-    if config.name not in CHOICES[group]:
-        raise ValueError(f"unknown {group} backend {config.name!r}; choices: {', '.join(CHOICES[group])}")
-    module = importlib.import_module(f"wm.synth.{group}.{config.name}")
+    name = _selected(group, config)
+    if name not in CHOICES[group]:
+        raise ValueError(f"unknown {group} backend {name!r}; choices: {', '.join(CHOICES[group])}")
+    module = importlib.import_module(f"wm.synth.{group}.{name}")
     return module.make(config, context)
+
+
+def mismatch(group: str, config: Any, image: ImageConfig) -> list[str]:
+    """What is wrong, if anything, with a backend of this group under an image backend."""
+    name = _selected(group, config)
+    if name not in READING.get(group, ()) or image.name in DRAWING:
+        return []
+    key = BACKEND_KEYS[group]
+    told = f"{key}={name!r} goes by what an offline image model tells that it drew, and image.name={image.name!r} tells nothing"
+    return [f"{told}: choose another {key}, or image.name from {', '.join(DRAWING)}"]
+
+
+def mismatched(config: RunConfig) -> list[str]:
+    """The backends of a run that do not go together, each with both of its keys, of those that the run will ask."""
+    lifted = config.furnish.enabled and config.objects.name == "lifted"
+    depth = mismatch("depth", config.depth, config.image) if lifted or config.verify.enabled else []
+    return depth + (mismatch("segmentation", config.objects, config.image) if lifted else [])
+
+
+def _selected(group: str, config: Any) -> str:
+    return getattr(config, BACKEND_KEYS[group].rpartition(".")[2])
 
 
 def close_backend(backend: Any) -> None:

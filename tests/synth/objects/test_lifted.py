@@ -1,5 +1,6 @@
 """The chain from drawing to placed furniture, with the offline models, on two small rooms."""
 
+import contextlib
 import dataclasses
 import functools
 import math
@@ -9,6 +10,7 @@ import pytest
 
 from tests.synth.objects.scenes import STYLE, bare, piece
 from tests.synth.recording import recorded
+from wm.errors import InputError
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement_laws import violations
 from wm.geometry.raycast import build_ray_scene, cast
@@ -27,11 +29,12 @@ from wm.synth.backends import (
     make_backend,
 )  # fmt: skip
 from wm.synth.objects.lifted import Models, lift_room
-from wm.synth.objects.reconstruction import TemplateReconstruction
+from wm.synth.reconstruction.templates import TemplateReconstruction
 from wm.types import OUTSIDE, View
 
 CONFIG = ObjectsConfig(name="lifted", image_width=240, image_height=180)
 COARSE = ImageConfig(texel_size=0.08)
+MODELS = ("image", "depth", "segmentation", "reconstruction")
 
 
 @functools.cache
@@ -130,15 +133,30 @@ def test_its_models_end_with_it_and_with_the_scene_they_are_of():
     assert backend._models is None
 
 
-def test_all_of_its_models_are_closed(monkeypatch):
-    log = recorded(monkeypatch, "image", "depth")
-    small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
+def test_all_of_its_models_are_the_selected_ones_and_closed(monkeypatch):
+    small = dataclasses.replace(CONFIG, image_width=60, image_height=45)
+    with contextlib.closing(make_backend("objects", small, bare()).with_models(COARSE, DepthConfig())) as backend:
+        offline = backend.lift(bare(), 1).objects
+    log = recorded(monkeypatch, *MODELS)
+    image, depth = dataclasses.replace(COARSE, name="recording"), DepthConfig(name="recording")
+    small = dataclasses.replace(small, segmentation="recording", reconstruction="recording")
+    backend = make_backend("objects", small, bare()).with_models(image, depth)
+    own = backend.lift(bare(), 1).objects
+    backend.close()
+    backend.close()
+    assert {f"{group} asked" for group in MODELS} <= set(log)
+    assert [entry for entry in log if "closed" in entry] == [f"{group} closed" for group in reversed(MODELS)] == log[-4:]
+    assert [thing.vertices.tobytes() for thing in own] == [thing.vertices.tobytes() for thing in offline] != []
+
+
+@pytest.mark.parametrize(("depth", "named"), [("procedural", r"depth\.name='procedural'.*"), ("recording", "")])
+def test_an_image_model_that_tells_nothing_is_refused_before_it_is_made(monkeypatch, depth, named):
+    log = recorded(monkeypatch, "image", "depth", draws=False)
     image = dataclasses.replace(COARSE, name="recording")
-    backend = make_backend("objects", small, bare()).with_models(image, DepthConfig(name="recording"))
-    backend.lift(bare(), 1)
-    backend.close()
-    backend.close()
-    assert [entry for entry in log if "closed" in entry] == ["depth closed", "image closed"] == log[-2:]
+    backend = make_backend("objects", CONFIG, bare()).with_models(image, DepthConfig(name=depth))
+    with pytest.raises(InputError, match=rf"^{named}objects\.segmentation='drawn'.*image\.name='recording'"):
+        backend.furnish(bare(), 1, density=1.0)
+    assert log == []
 
 
 @pytest.mark.slow

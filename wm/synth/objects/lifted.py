@@ -17,6 +17,7 @@ import dataclasses
 
 import numpy as np
 
+from wm.errors import InputError
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement import Placement, place_objects
 from wm.geometry.raycast import RayScene, build_ray_scene, cast
@@ -39,17 +40,15 @@ from wm.synth.backends import (
     Sighting,
     close_backend,
     make_backend,
+    mismatch,
 )
 from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.condition import depth_grey
 from wm.synth.objects.coloring import unlit
-from wm.synth.objects.drawn_segments import DrawnSegmentation
 from wm.synth.objects.metric_depth import metric_depth
 from wm.synth.objects.procedural import ProceduralObjects
-from wm.synth.objects.reconstruction import TemplateReconstruction
 from wm.synth.objects.segments import tidy_segments
 from wm.synth.objects.sightings import Thing, gather, in_room, joined
-from wm.synth.procedural.style import style_of
 from wm.synth.prompts import furnish_prompt
 from wm.synth.sights import sights
 from wm.types import Camera, SceneObject, View
@@ -136,15 +135,20 @@ class LiftedObjects:
         return latest.furnished
 
     def models(self, imagined: SceneContext, image: ImageBackend | None = None) -> Models:
-        """The selected image model, or the one given; the selected depth model; the offline segmentation and reconstruction.
+        """The selected models, of images the one given if there is one. Whoever asks for them closes them.
 
-        Whoever asks for them closes them.
+        Raises:
+          InputError: the selected ones do not go together.
         """
+        if image is None:
+            faults = mismatch("depth", self._depth, self._image) + mismatch("segmentation", self.config, self._image)
+            if faults:
+                raise InputError("; ".join(faults))
         return Models(
             image=image if image is not None else _image_model(self._image, imagined),
             depth=make_backend("depth", self._depth, imagined),
-            segmentation=DrawnSegmentation(self.config),
-            reconstruction=TemplateReconstruction(style_of(imagined.theme)),
+            segmentation=make_backend("segmentation", self.config, imagined),
+            reconstruction=make_backend("reconstruction", self.config, imagined),
         )
 
     def close(self) -> None:
@@ -244,5 +248,5 @@ def _seed(*numbers: int) -> int:
 
 
 def make(config: ObjectsConfig, context: SceneContext | None = None) -> LiftedObjects:
-    """The image-driven backend with the offline models."""
+    """The image-driven backend, with the offline image and depth models until it is given others."""
     return LiftedObjects(config)
