@@ -5,8 +5,9 @@ import functools
 
 import pytest
 
+from tests.synth.recording import recorded
 from wm.run import load_config, options
-from wm.schema import RunConfig
+from wm.schema import BACKEND_KEYS, RunConfig
 from wm.synth.backends import CHOICES
 from wm.synth.image.violations import KINDS
 from wm.validate import RANGES, ConfigError, validate_config
@@ -42,8 +43,10 @@ def test_the_groups_offer_what_they_should():
     assert set(options("scene")) == set(SCENES)
     assert set(options("variant")) == set(VARIANTS)
     assert set(options("preset")) == set(PRESETS)
+    assert set(BACKEND_KEYS) == set(CHOICES)
     for group, names in CHOICES.items():
-        assert set(options(group)) == set(names) | PROFILES.get(group, set())
+        if BACKEND_KEYS[group] == f"{group}.name":  # the others are fields of another group
+            assert set(options(group)) == set(names) | PROFILES.get(group, set())
 
 
 @pytest.mark.parametrize("profile", ["like_closed", "like_distilled"])
@@ -109,6 +112,8 @@ def test_a_scene_of_ones_own():
         (["image=gan"], "image=gan: no such image; choose one of like_closed, like_distilled, procedural"),
         (["image.name=gan"], "image.name='gan': choose one of procedural"),
         (["language.name=gpt"], "language.name='gpt': choose one of grammar"),
+        (["objects.segmentation=sam"], "objects.segmentation='sam': choose one of drawn"),
+        (["objects.reconstruction=nerf"], "objects.reconstruction='nerf': choose one of templates"),
         (["fit.stepz=3"], "fit.stepz: no such key; did you mean fit.steps. fit has init, .*steps"),
         (["+fit.stepz=3"], "fit.stepz: no such key"),
         (["++colour.depth=3"], "colour: no such key; .*the configuration has scene, plan"),
@@ -136,6 +141,25 @@ def test_what_is_wrong_is_named_in_one_line_with_what_would_be_right(arguments, 
     with pytest.raises(ConfigError, match=said) as caught:
         load_config([*scene, *arguments])
     assert "\n" not in str(caught.value)
+
+
+def test_offline_models_that_go_by_what_was_drawn_are_refused_beside_an_image_model_that_tells_nothing(monkeypatch):
+    recorded(monkeypatch, "image", "depth", draws=False)
+
+    def faults(*arguments):
+        try:
+            load_config(["+scene=gothic", "image.name=recording", *arguments])
+        except ConfigError as error:
+            return str(error)
+        return ""
+
+    assert "depth.name='procedural'" in faults() and "image.name='recording'" in faults()
+    assert faults("verify.enabled=false") == faults("depth.name=recording") == ""
+    both = faults("objects=lifted", "verify.enabled=false")
+    assert "depth.name='procedural'" in both and "objects.segmentation='drawn'" in both
+    one = faults("objects=lifted", "depth.name=recording")
+    assert "depth.name" not in one and "choose another objects.segmentation, or image.name from procedural" in one
+    assert faults("objects=lifted", "depth.name=recording", "furnish.enabled=false") == ""
 
 
 def test_ranges_are_of_keys_that_exist_and_cover_every_number():

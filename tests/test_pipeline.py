@@ -5,10 +5,15 @@ import pathlib
 
 import pytest
 
-from wm.artifacts import ArtifactError, RunFolder
+from tests.synth.recording import recorded
+from wm import pipeline
+from wm.artifacts import ArtifactError, RunFolder, open_run_folder
 from wm.geometry import PlanError
+from wm.meter import StageMeter
 from wm.pipeline import run
 from wm.run import load_config
+from wm.stages.job import Job
+from wm.stages.scene import build_scene
 
 SMALL = (
     "scene.name=cell",
@@ -142,3 +147,31 @@ def test_a_plan_that_cannot_be_used_leaves_no_folder_behind(tmp_path):
     with pytest.raises(PlanError, match=r"plan\.json"):
         run(load_config([*SMALL, f"plan.file={tmp_path / 'plan.json'}"]), tmp_path / "never")
     assert not (tmp_path / "never").exists()
+
+
+RECORDED = (*SMALL, "image.name=recording", "depth.name=recording")
+
+
+def painted(folder, overrides):
+    config = load_config(overrides)
+    with open_run_folder(folder, {"seed": config.seed}) as store:
+        job = Job(config=config, folder=store, meter=StageMeter({}))
+        return pipeline._painted(job, build_scene(job))
+
+
+def test_the_models_that_paint_are_closed_when_all_is_painted(monkeypatch, tmp_path):
+    log = recorded(monkeypatch, "image", "depth")
+    result, heldout = painted(tmp_path, RECORDED)
+    assert result.yield_share == 1.0 and not heldout.known  # a model that knows no world has no truth of held-out views
+    assert log[:2] == ["image made", "depth made"] and log[-2:] == ["depth closed", "image closed"]
+    assert {"image asked", "depth asked"} == set(log[2:-2])
+    assert {request.task for request in log.requests} == {"paint"}
+    assert any("In view: a window" in request.prompt for request in log.requests)
+
+
+@pytest.mark.parametrize("group", ["image", "depth"])
+def test_the_models_that_paint_are_closed_when_one_of_them_fails(monkeypatch, tmp_path, group):
+    log = recorded(monkeypatch, "image", "depth", fails={group: 2})
+    with pytest.raises(MemoryError, match=group):
+        painted(tmp_path, RECORDED)
+    assert log[-2:] == ["depth closed", "image closed"]

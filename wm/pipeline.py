@@ -4,6 +4,7 @@ A stage's key is a digest of its configuration, the seed and the keys of its inp
 missing, and ends with the same bytes as an undisturbed one. Each stage is a function of `wm.stages`.
 """
 
+import contextlib
 import functools
 import json
 import pathlib
@@ -24,7 +25,7 @@ from wm.stages.reconstruction import HISTORY, reconstruct
 from wm.stages.rehearsal import rehearsed
 from wm.stages.reporting import REPORT, report
 from wm.stages.scene import LAYOUT, Scene, build_scene
-from wm.synth.backends import make_backend
+from wm.synth.backends import close_backend, make_backend
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
 """Files that a stage leaves and that depend on the clock."""
@@ -69,10 +70,13 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
 
 
 def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
-    """All that the image backend is asked for; it is gone afterwards, with its memory."""
-    image = make_backend("image", job.config.image, scene.context)
-    depth = make_backend("depth", job.config.depth, scene.context)
-    return paint(job, scene, image, depth), render_heldout(job, scene, image)
+    """All that the image and depth backends are asked for; they are closed afterwards, and gone with their memory."""
+    with contextlib.ExitStack() as done:
+        image = make_backend("image", job.config.image, scene.context)
+        done.callback(close_backend, image)
+        depth = make_backend("depth", job.config.depth, scene.context)
+        done.callback(close_backend, depth)
+        return paint(job, scene, image, depth), render_heldout(job, scene, image)
 
 
 def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pathlib.Path) -> None:

@@ -74,9 +74,10 @@ def freeze(composed: Any) -> RunConfig:
     """The composed tree as checked dataclasses.
 
     Raises:
-      ConfigError: a key that the schema does not know, a value of a wrong kind or out of range, no scene.
+      ConfigError: a key that the schema does not know, a value of a wrong kind or out of range, no scene, backends that do not
+        go together.
     """
-    from wm.synth.backends import CHOICES  # here: `--help` needs none of it
+    from wm.synth.backends import CHOICES, mismatched  # here: `--help` needs none of it
 
     if OmegaConf.is_missing(composed.scene, "name"):
         raise ConfigError(_no_scene())
@@ -85,6 +86,8 @@ def freeze(composed: Any) -> RunConfig:
     config = OmegaConf.to_object(composed)
     assert isinstance(config, RunConfig)
     validate_config(config, backends=CHOICES)
+    if faults := mismatched(config):
+        raise ConfigError("; ".join(faults))
     return config
 
 

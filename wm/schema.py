@@ -184,6 +184,8 @@ class ImageConfig:
 @dataclass(kw_only=True, unsafe_hash=True)
 class ObjectsConfig:
     name: str = "procedural"  # procedural: straight from the generator | lifted: from images of the room
+    segmentation: str = "drawn"  # what finds things in those images; drawn: offline, by what the offline image model drew
+    reconstruction: str = "templates"  # what makes a mesh of each
     image_width: int = 640  # of the images that rooms are lifted from
     image_height: int = 480
     fov: float = 90.0  # vertical
@@ -198,6 +200,17 @@ class DepthConfig:
     name: str = "procedural"
     noise: float = 0.01  # relative, of the offline depth model
     softness: float = 0.35  # pixels by which it blurs edges
+
+
+BACKEND_KEYS = {
+    "language": "language.name",
+    "image": "image.name",
+    "objects": "objects.name",
+    "depth": "depth.name",
+    "segmentation": "objects.segmentation",
+    "reconstruction": "objects.reconstruction",
+}
+"""The key that selects the backend of each group."""
 
 
 @dataclass(kw_only=True, unsafe_hash=True)

@@ -10,7 +10,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from wm.errors import InputError
-from wm.schema import COMPOSITORS, PLANNERS, RunConfig
+from wm.schema import BACKEND_KEYS, COMPOSITORS, PLANNERS, RunConfig
 
 CHOICES: Mapping[str, tuple[str, ...]] = {
     "condition.objects": ("textured", "boxes", "none"),
@@ -124,7 +124,7 @@ def validate_config(config: RunConfig, *, backends: Mapping[str, tuple[str, ...]
       ConfigError: naming every key that is wrong, its value, and the choices or the range.
     """
     values = dict(_leaves(config))
-    choices = dict(CHOICES) | {f"{group}.name": names for group, names in backends.items()}
+    choices = dict(CHOICES) | {BACKEND_KEYS[group]: names for group, names in backends.items()}
     wrong = {key: names for key, names in choices.items() if values[key] not in names}
     problems = [f"{key}={values[key]!r}: choose one of {', '.join(names)}" for key, names in wrong.items()]
     for key, (low, high) in RANGES.items():

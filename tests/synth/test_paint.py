@@ -74,7 +74,7 @@ class Painter:
         rgb = pattern(unproject_depth(camera, depth)) + np.random.default_rng(request.seed).normal(0, self.drift, 3)
         known = request.condition.known[..., None]
         rgb = known * request.condition.rgb + (1 - known) * rgb
-        return ImageResult(rgb=rgb.astype(np.float32), drawn_depth=depth)
+        return ImageResult(rgb=np.clip(rgb, 0, 1).astype(np.float32), drawn_depth=depth)
 
 
 class Estimator:
@@ -296,7 +296,7 @@ def test_nothing_to_paint():
     assert (summary.order, summary.yield_share, summary.atm, kept) == ((), 1.0, None, {})
 
 
-@pytest.mark.parametrize("spoil", [lambda rgb: rgb[1:], lambda rgb: np.where(rgb < 2, np.float32(np.nan), rgb)])
+@pytest.mark.parametrize("spoil", [lambda rgb: rgb[1:], lambda rgb: rgb * np.nan, lambda rgb: (rgb * 255).astype(np.uint8)])
 def test_what_is_no_image_is_refused(spoil):
     class Broken(Painter):
         def generate(self, request):
@@ -305,6 +305,15 @@ def test_what_is_no_image_is_refused(spoil):
 
     with pytest.raises(ValueError, match="hall/bootstrap0"):
         paint(Broken())
+
+
+def test_what_is_no_estimate_is_refused():
+    class Inches(Estimator):
+        def estimate(self, result, *, seed):
+            return np.round(40 * result.drawn_depth).astype(np.uint16)
+
+    with pytest.raises(ValueError, match=r"hall/bootstrap0: the depth backend returned uint16"):
+        paint(depth=Inches())
 
 
 def test_the_depth_range_is_the_scenes():

@@ -1,17 +1,19 @@
-"""Prompts carry what they were given."""
+"""Prompts carry what they were given, and do not contradict it."""
 
-from wm.geometry import parse_plan
-from wm.synth.prompts import PLAN_SAMPLE, image_prompt, plan_prompt
-
-
-def test_image_prompt_names_theme_room_and_sights():
-    text = image_prompt("a moss castle", "library", ["a doorway to the hall"])
-    assert "a moss castle" in text and "library" in text and "a doorway to the hall" in text
+from wm.synth.prompts import furnish_prompt, image_prompt
 
 
-def test_image_prompt_speaks_of_a_second_picture_only_where_there_is_one():
-    assert "second picture" in image_prompt("x", "hall")
-    assert "second picture" not in image_prompt("x", "hall", has_reference=False)
+def test_prompts_name_theme_room_and_sights():
+    for prompt in (image_prompt, furnish_prompt):
+        text = prompt("a moss castle", "library", ["a doorway on the left"])
+        assert "a moss castle" in text and "library" in text and "In view: a doorway on the left." in text
+        assert "In view" not in prompt("a moss castle", "library")
+
+
+def test_prompts_speak_of_a_second_picture_only_where_there_is_one():
+    for prompt in (image_prompt, furnish_prompt):
+        assert "second picture" in prompt("x", "hall", has_reference=True)
+        assert "second picture" not in prompt("x", "hall", has_reference=False)
 
 
 def test_image_prompt_says_what_the_guide_shows_of_furniture():
@@ -21,12 +23,7 @@ def test_image_prompt_says_what_the_guide_shows_of_furniture():
     assert all("exactly where the guide shows it" not in texts[objects] for objects in ("boxes", "none"))
 
 
-def test_plan_prompt_lists_rooms_and_violations():
-    text = plan_prompt("a moss castle", ["hall", "bedroom", "bedroom"], ["room hall: unreachable: no doors"])
-    assert text.count("- bedroom") == 2 and "- room hall: unreachable: no doors" in text
-    assert "broke these rules" not in plan_prompt("a moss castle", ["hall"])
-
-
-def test_the_sample_that_models_are_shown_is_valid():
-    assert [room.id for room in parse_plan(PLAN_SAMPLE).rooms] == ["hall", "kitchen"]
-    assert PLAN_SAMPLE in plan_prompt("x", ["hall"])
+def test_no_prompt_both_asks_for_furniture_and_forbids_it():
+    for text in (image_prompt("x", "hall", objects="none"), furnish_prompt("x", "hall", has_reference=True)):
+        assert "Furnish" in text and "take no object" not in text
+    assert "take no object" in image_prompt("x", "hall", objects="textured")

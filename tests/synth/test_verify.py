@@ -125,3 +125,15 @@ def test_front_and_back_swapped_does_not_pass(falling):
 def test_held_to_depth_it_still_fails_closed(estimate):
     depth, edges = step()
     assert not verify(edges, estimate, VerifySettings(), depth=depth).passed
+
+
+def test_an_estimate_of_half_the_image_vouches_for_no_more_than_that():
+    """Also where the image is free to add things: the half that says nothing might be anything."""
+    depth, edges = step(at=10)
+    half = depth.copy()
+    half[:, 22:] = np.nan
+    for held in (None, depth):
+        verdict = verify(edges, half, VerifySettings(), depth=held)
+        assert (verdict.passed, verdict.recall, verdict.disagreement) == (False, 1.0, 0.5)
+        assert "missing" in verdict.reason
+        assert verify(edges, half, VerifySettings(max_disagreement=1.0), depth=held).passed  # the paper's test alone

@@ -9,6 +9,7 @@ from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.scene import Scene
 from wm.synth.backends import ImageBackend, WorldBackend
+from wm.synth.checked import checked_image
 from wm.types import View
 
 
@@ -36,7 +37,7 @@ def render_heldout(job: Job, scene: Scene, image: ImageBackend) -> HeldOut:
         job.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
         with job.bar("heldout", len(wanted)) as bar:
             for view, rgb in zip(wanted, in_order(image.truth, wanted)):
-                job.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(rgb))})
+                job.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(checked_image(rgb, view)))})
                 bar.update()
     return HeldOut(known=True, key=key, job=job)
 

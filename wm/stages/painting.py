@@ -1,7 +1,9 @@
 """Paint: every view of the scene, each an entry of its own, so that a killed run goes on at the next view."""
 
 import dataclasses
+import functools
 import json
+from collections.abc import Callable
 
 import numpy as np
 
@@ -9,11 +11,14 @@ from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, object_boxes
 from wm.geometry.glb import object_nodes, save_glb
+from wm.geometry.site import room_site
+from wm.schema import RunConfig
 from wm.stages.job import Job
 from wm.stages.scene import Scene
 from wm.synth.backends import DepthBackend, ImageBackend
 from wm.synth.paint import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
 from wm.synth.prompts import image_prompt
+from wm.synth.sights import sights
 from wm.types import SceneObject, View
 
 SCAFFOLD = "scaffold.glb"
@@ -82,12 +87,7 @@ def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> 
             _conditioning(scene, scaffold, config.condition.objects),
             image,
             depth,
-            prompt=lambda view, has_reference: image_prompt(
-                config.scene.theme,
-                scene.plan.rooms[view.room].name,
-                objects=config.condition.objects,
-                has_reference=has_reference,
-            ),
+            prompt=_prompts(scene, config),
             seed=config.seed,
             load=lambda view: read_view(job, view) if job.folder.has(_entry(view), key) else None,
             store=lambda view, painted, gbuffer: _store(job, scene, key, view, painted, gbuffer.depth),
@@ -133,6 +133,18 @@ def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:
         return scaffold
     shown: tuple[SceneObject, ...] = object_boxes(scene.objects) if objects == "boxes" else ()
     return Scaffold(scene=build_ray_scene(assemble_scene(scene.context.structure, shown)), objects=shown)
+
+
+def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
+    """The words for a view, by the view and whether a style reference goes with it."""
+    sites = functools.cache(functools.partial(room_site, scene.plan))
+
+    def prompt(view: View, has_reference: bool) -> str:
+        seen = sights(view.camera, sites(view.room))
+        name, shown = scene.plan.rooms[view.room].name, config.condition.objects
+        return image_prompt(config.scene.theme, name, seen, objects=shown, has_reference=has_reference)
+
+    return prompt
 
 
 def _export(job: Job, scene: Scene, result: PaintSummary, key: str) -> None:

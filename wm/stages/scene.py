@@ -1,6 +1,5 @@
 """Plan, structure, furniture and cameras: everything that is fixed before anything is painted."""
 
-import contextlib
 import dataclasses
 import json
 import pathlib
@@ -20,7 +19,8 @@ from wm.geometry import (
     plan_to_json,
 )
 from wm.stages.job import Job
-from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext, close_backend, make_backend
+from wm.synth.backends import SceneContext, make_backend
+from wm.synth.furnished import make_furnisher
 from wm.synth.language.propose import propose_plan
 from wm.types import Mesh, SceneObject, View
 
@@ -96,20 +96,13 @@ def _user_file(file: str) -> pathlib.Path:
 
 def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
     config = job.config
-    backend: ObjectsBackend = make_backend("objects", config.objects, context)
-    models = ()
-    if isinstance(backend, ImageDrivenBackend):
-        backend, models = backend.with_models(config.image, config.depth), (config.image, config.depth)
-    key = job.key("furnish", plan_key, config.furnish, config.objects, config.scene.theme, *models)
+    furnisher = make_furnisher(config, context)
+    key = job.key("furnish", plan_key, config.furnish, config.objects, config.scene.theme, *furnisher.models)
     if not config.furnish.enabled:
         return (), key
     if not job.folder.has("furnish", key):
-        objects: list[SceneObject] = []
-        with contextlib.ExitStack() as done, job.bar("furnish", len(context.plan.rooms)) as bar:
-            done.callback(close_backend, backend)
-            for room in range(len(context.plan.rooms)):
-                objects += backend.furnish(context, room, density=config.furnish.density)
-                bar.update()
+        with job.bar("furnish", len(context.plan.rooms)) as bar:
+            objects = furnisher.furnish(context, density=config.furnish.density, done=bar.update)
         summary = codecs.object_summary(objects, [room.id for room in context.plan.rooms])
         job.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(objects), OBJECTS: json_text(summary)})
     return codecs.decode_objects((job.folder.path / OBJECT_ARRAYS).read_bytes()), key

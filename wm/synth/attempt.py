@@ -13,6 +13,7 @@ from wm.schema import VerifySettings
 from wm.synth.agreement import agreement
 from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest
 from wm.synth.canny import depth_edges
+from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.verify import Verdict, dilation_radius, verify
 from wm.types import GBuffer
 
@@ -55,7 +56,7 @@ def paint_view(
       reference: name of the view that the request's style came from.
 
     Raises:
-      ValueError: the image backend returned something that is no image of the view's size.
+      ValueError: a backend returned something that is no image, or no estimate of depth, of the view's size.
     """
     edges = binding_edges(shown, request.condition, settings)
     held = shown.depth if request.condition.objects == "textured" else None
@@ -64,10 +65,9 @@ def paint_view(
     for attempt in range(max(settings.max_attempts, 1)):
         request = dataclasses.replace(request, seed=attempt_seed(*identity, attempt))
         result = image.generate(request)
-        _check(result.rgb, request)
-        rgb = as_bytes(result.rgb)
+        rgb = as_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
-        estimate = depth.estimate(result, seed=request.seed) if settings.enabled else None
+        estimate = checked_estimate(depth.estimate(result, seed=request.seed), request.view) if settings.enabled else None
         verdict = verify(edges, estimate, settings, depth=held)
         painted = PaintedView(
             rgb=rgb,
@@ -102,14 +102,6 @@ def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings
         return edges
     near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1)).astype(bool)
     return edges & ~near
-
-
-def _check(rgb: np.ndarray, request: ImageRequest) -> None:
-    expected = (request.view.camera.height, request.view.camera.width, 3)
-    if rgb.shape != expected:
-        raise ValueError(f"view {request.view.name}: the image backend returned shape {rgb.shape}, not {expected}")
-    if not np.isfinite(rgb).all():
-        raise ValueError(f"view {request.view.name}: the image backend returned an image that is not finite")
 
 
 def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:

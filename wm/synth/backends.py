@@ -1,19 +1,22 @@
 """What a backend must offer, and the registry that imports the one that was selected.
 
-A backend is a function or a small class behind one of four protocols. Selecting `image=procedural` imports
-`wm.synth.image.procedural` and calls its `make(config, context)`; nothing of the others is imported. Real models see only
-what the paper's would (condition, reference, prompt, seed); the offline ones may also look at the scene they were made for.
+A backend is a small class behind one of the protocols below. Selecting `image=procedural` imports `wm.synth.image.procedural` and
+calls its `make(config, context)`; nothing of the others is imported. Real models see only what the paper's would (condition,
+reference, prompt, seed); the offline ones may also look at the scene they were made for.
+
+To plug a model in: a module in the folder of its group that has `make`, its name in CHOICES, for the groups of conf/ a YAML of
+that name, and its settings as fields of the group's dataclass in wm.schema. What it returns is checked (wm.synth.checked).
 """
 
 import dataclasses
 import importlib
 from collections.abc import Sequence
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
 from wm.geometry.site import Site
-from wm.schema import DepthConfig, ImageConfig
+from wm.schema import BACKEND_KEYS, DepthConfig, ImageConfig, RunConfig
 from wm.types import Camera, Mesh, SceneObject, View
 
 
@@ -32,7 +35,7 @@ class SceneContext:
 class Condition:
     """What the image model is shown of the scaffold from one camera: the X of the paper."""
 
-    rgb: np.ndarray  # [h, w, 3] textured objects, alpha-blended accumulated texture, grayscale depth elsewhere
+    rgb: np.ndarray  # [h, w, 3] float32 sRGB in [0, 1]: textured objects, blended accumulated texture, grayscale depth elsewhere
     known: np.ndarray  # [h, w] float32 in [0, 1]: how far rgb shows appearance and not depth
     depth: np.ndarray  # [h, w] float32 z-depth of the conditioning scaffold, metres, 0 where nothing is hit
     objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none; so that a box is not taken for a crate
@@ -42,16 +45,21 @@ class Condition:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ImageRequest:
+    """What an image model is asked for one view."""
+
     condition: Condition
-    reference: np.ndarray | None  # [h, w, 3] a finished view of the scene, for style; None for the first
+    reference: np.ndarray | None  # [h, w, 3] float32 sRGB in [0, 1], for style a finished view; to furnish, the room furnished
     prompt: str
     view: View
     seed: int
+    task: Literal["paint", "furnish"] = "paint"  # the view as the scaffold has it | the empty room that it has, furnished
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ImageResult:
-    rgb: np.ndarray  # [h, w, 3] float32 sRGB in [0, 1]
+    """What an image model made of it."""
+
+    rgb: np.ndarray  # [h, w, 3] floating sRGB in [0, 1], of the size of the view's camera (wm.synth.checked)
     drawn_depth: np.ndarray | None = None  # [h, w] what an offline model knows it drew; real models have none
     drawn_object: np.ndarray | None = None  # [h, w] int32 likewise: index into drawn_labels, OUTSIDE for structure
     drawn_labels: tuple[str, ...] = ()
@@ -88,7 +96,7 @@ class Reconstruction:
 @runtime_checkable
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:
-        """One image Phi(X, reference, theme; seed)."""
+        """One image Phi(X, reference, theme; seed); the same request gives the same image."""
         ...
 
 
@@ -106,7 +114,7 @@ class WorldBackend(ImageBackend, Protocol):
     """An image backend that also knows the world it paints: the ground truth of held-out views."""
 
     def truth(self, view: View) -> np.ndarray:
-        """[h, w, 3] the image that the exact world would show."""
+        """[h, w, 3] the image that the exact world would show, as `ImageResult.rgb`. Several threads call it at once."""
         ...
 
 
@@ -152,16 +160,22 @@ class ReconstructionBackend(Protocol):
 @runtime_checkable
 class DepthBackend(Protocol):
     def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
-        """[h, w] depth up to scale and shift implied by an image, None where no estimate can be given."""
+        """[h, w] floating, of the image's size: how far away each pixel is; None where no estimate can be given.
+
+        It is z-depth up to a positive scale and a shift, neither of which is known: larger is farther, and zero and negative
+        values are as good as others. So it is not disparity: a model that gives inverse depth gives its reciprocal here, which
+        takes one that knows the shift of its inverse depth. NaN, and nothing else, says that a pixel has no estimate (infinities
+        are taken for it); verification counts such a pixel as one that disagrees.
+        """
         ...
 
 
 @runtime_checkable
 class ClosableBackend(Protocol):
-    """A backend that holds more than memory, such as processes."""
+    """A backend of any group that holds more than Python frees by itself, such as processes or a device's memory."""
 
     def close(self) -> None:
-        """Ends what it holds."""
+        """Ends what it holds. Whoever made the backend closes it, also after an error; closing twice is closing once."""
         ...
 
 
@@ -170,27 +184,58 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "image": ("procedural",),
     "objects": ("procedural", "lifted"),
     "depth": ("procedural",),
+    "segmentation": ("drawn",),
+    "reconstruction": ("templates",),
 }
+DRAWING = ("procedural",)
+"""Image backends whose results tell what they drew (`ImageResult.drawn_*`), as no real model's do."""
+READING = {"depth": ("procedural",), "segmentation": ("drawn",)}
+"""Backends that go by it, and so only with those."""
 
 
 def make_backend(group: str, config: Any, context: SceneContext | None = None) -> Any:
-    """The selected backend of a group ("language", "image", "objects", "depth").
+    """The selected backend of a group, such as "image".
 
     Args:
       group: one of CHOICES.
-      config: the group's dataclass of wm.schema; its `name` selects the module.
+      config: the dataclass of wm.schema that selects it, by the field that BACKEND_KEYS tells: its `name`, or for what `objects`
+        is made with the field of the group.
       context: the scene; None for the language backend, which comes before it.
 
     Raises:
-      ValueError: the name is not one of the group's choices.
+      ValueError: there is no such group, or the name is not one of its choices.
     """
-    if config.name not in CHOICES[group]:
-        raise ValueError(f"unknown {group} backend {config.name!r}; choices: {', '.join(CHOICES[group])}")
-    module = importlib.import_module(f"wm.synth.{group}.{config.name}")
+    if group not in CHOICES:
+        raise ValueError(f"no group of backends is called {group!r}; groups: {', '.join(CHOICES)}")
+    name = _selected(group, config)
+    if name not in CHOICES[group]:
+        raise ValueError(f"unknown {group} backend {name!r}; choices: {', '.join(CHOICES[group])}")
+    module = importlib.import_module(f"wm.synth.{group}.{name}")
     return module.make(config, context)
 
 
+def mismatch(group: str, config: Any, image: ImageConfig) -> list[str]:
+    """What is wrong, if anything, with a backend of this group under an image backend."""
+    name = _selected(group, config)
+    if name not in READING.get(group, ()) or image.name in DRAWING:
+        return []
+    key = BACKEND_KEYS[group]
+    told = f"{key}={name!r} goes by what an offline image model tells that it drew, and image.name={image.name!r} tells nothing"
+    return [f"{told}: choose another {key}, or image.name from {', '.join(DRAWING)}"]
+
+
+def mismatched(config: RunConfig) -> list[str]:
+    """The backends of a run that do not go together, each with both of its keys, of those that the run will ask."""
+    lifted = config.furnish.enabled and config.objects.name == "lifted"
+    depth = mismatch("depth", config.depth, config.image) if lifted or config.verify.enabled else []
+    return depth + (mismatch("segmentation", config.objects, config.image) if lifted else [])
+
+
+def _selected(group: str, config: Any) -> str:
+    return getattr(config, BACKEND_KEYS[group].rpartition(".")[2])
+
+
 def close_backend(backend: Any) -> None:
-    """Ends the processes and threads that a backend holds, if it holds any."""
+    """Ends what a backend holds, if it holds anything."""
     if isinstance(backend, ClosableBackend):
         backend.close()

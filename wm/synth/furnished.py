@@ -1,24 +1,61 @@
-"""The scene of a configuration in memory, for whoever wants no run folder: plan, structure and furniture."""
+"""The furniture of a configuration, for the furnish stage and for whoever wants no run folder."""
 
+import contextlib
 import dataclasses
+import pathlib
+from collections.abc import Callable
 
-from wm.geometry import build_structure
-from wm.schema import RunConfig
-from wm.synth.backends import SceneContext, make_backend
+from wm.geometry import FloorPlan, build_structure, load_plan
+from wm.schema import DepthConfig, ImageConfig, RunConfig
+from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext, close_backend, make_backend
 from wm.synth.language.propose import propose_plan
+from wm.types import SceneObject
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Furnisher:
+    """The objects backend of a configuration."""
+
+    backend: ObjectsBackend
+    models: tuple[ImageConfig | DepthConfig, ...]  # settings of those that it has images from; they shape the furniture too
+
+    def furnish(self, context: SceneContext, *, density: float, done: Callable[[], object] = lambda: None) -> list[SceneObject]:
+        """The objects of all rooms; `done` is called after each. The backend is closed then, or after an error."""
+        with contextlib.ExitStack() as held:
+            held.callback(close_backend, self.backend)
+            objects: list[SceneObject] = []
+            for room in range(len(context.plan.rooms)):
+                objects += self.backend.furnish(context, room, density=density)
+                done()
+            return objects
+
+
+def make_furnisher(config: RunConfig, context: SceneContext) -> Furnisher:
+    """The selected objects backend, its images drawn and their depth estimated by the selected models if it wants any."""
+    backend: ObjectsBackend = make_backend("objects", config.objects, context)
+    if isinstance(backend, ImageDrivenBackend):
+        return Furnisher(backend.with_models(config.image, config.depth), (config.image, config.depth))
+    return Furnisher(backend, ())
 
 
 def furnished_context(config: RunConfig) -> SceneContext:
-    """The scene that a run of this configuration proposes and furnishes; `plan.file` is not read.
+    """The scene that a run of this configuration furnishes, in memory: plan, structure and furniture.
 
-    Raises: ProposalError if the language backend finds no valid plan.
+    Raises:
+      ProposalError: the language backend finds no valid plan.
+      PlanError: `plan.file` holds none.
     """
-    words = config.scene
+    plan = _plan(config)
+    bare = SceneContext(theme=config.scene.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=())
+    if not config.furnish.enabled:
+        return bare
+    objects = make_furnisher(config, bare).furnish(bare, density=config.furnish.density)
+    return dataclasses.replace(bare, objects=tuple(objects))
+
+
+def _plan(config: RunConfig) -> FloorPlan:
+    if config.plan.file is not None:
+        return load_plan(pathlib.Path(config.plan.file))
     language = make_backend("language", config.language)
     iterations = config.plan.max_iterations
-    plan = propose_plan(language, words.theme, list(words.rooms), seed=config.seed, max_iterations=iterations).plan
-    context = SceneContext(theme=words.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=())
-    furnisher = make_backend("objects", config.objects, context)
-    density = config.furnish.density
-    objects = [thing for room in range(len(plan.rooms)) for thing in furnisher.furnish(context, room, density=density)]
-    return dataclasses.replace(context, objects=tuple(objects))
+    return propose_plan(language, config.scene.theme, list(config.scene.rooms), seed=config.seed, max_iterations=iterations).plan

@@ -84,7 +84,7 @@ def paint_scene(
       progress: called after each view.
 
     Raises:
-      ValueError: the image backend returned something that is no image of the view's size.
+      ValueError: a backend returned something that is no image, or no estimate of depth, of the view's size.
       RuntimeError: a view that was stored cannot be loaded.
     """
     settings = settings or PaintSettings()

@@ -6,7 +6,8 @@ empty or no estimate can be had: here an empty E_M means that the test does not 
 
 Recall is taken over the whole image, so one chair that is missing drowns in the edges of all else (experiments/verification).
 Where the condition shows all that there is, the image is therefore also held to the scaffold's depth: brought to its scale and
-shift, the estimate may disagree with it in a small share of the image only.
+shift, the estimate may disagree with it in a small share of the image only. A pixel without an estimate vouches for nothing: it
+counts as one that disagrees, also where the image is free to add things.
 """
 
 import dataclasses
@@ -28,7 +29,7 @@ class Verdict:
 
     passed: bool
     recall: float | None  # None where there was nothing to compare
-    disagreement: float | None  # share of the image whose depth disagrees; None where it was not compared
+    disagreement: float | None  # share of the image whose depth disagrees or is not there; None where it was not compared
     reason: str  # one clause for people
 
 
@@ -43,7 +44,7 @@ def verify(
 
     Args:
       scaffold_edges: `depth_edges` of the scaffold's depth, made once a view.
-      estimate: depth up to scale and shift; None where the backend could not tell.
+      estimate: depth up to scale and shift, NaN where there is none; None where the backend could not tell.
       settings: thresholds; `enabled` False passes every image.
       depth: the scaffold's depth, 0 where nothing is hit, to hold the image to; None where the image is free to add things.
 
@@ -59,7 +60,7 @@ def verify(
     radius = dilation_radius(settings, scaffold_edges.shape[1])
     edges = depth_edges(estimate, np.isfinite(estimate), low=settings.low, high=settings.high)
     recall = edge_recall(scaffold_edges, edges, radius)
-    apart = None if depth is None else float(disagreement(depth, estimate, radius=radius, tolerance=settings.tolerance).mean())
+    apart = _apart(depth, estimate, radius, settings)
     enough = recall is None or recall >= settings.min_recall
     close = apart is None or apart <= settings.max_disagreement
     reasons = (
@@ -69,9 +70,18 @@ def verify(
     )
     if apart is not None:
         reasons.append(
-            f"{apart:.2%} of the depth disagrees, {'at most' if close else 'more than'} {settings.max_disagreement:.2%}"
+            f"{apart:.2%} of the depth disagrees or is missing, "
+            f"{'at most' if close else 'more than'} {settings.max_disagreement:.2%}"
         )
     return Verdict(passed=enough and close, recall=recall, disagreement=apart, reason="; ".join(reasons))
+
+
+def _apart(depth: np.ndarray | None, estimate: np.ndarray, radius: int, settings: VerifySettings) -> float | None:
+    """Share of the image that disagrees; of one that is not held to a depth, the share without an estimate, None for nothing."""
+    if depth is not None:
+        return float(disagreement(depth, estimate, radius=radius, tolerance=settings.tolerance).mean())
+    unknown = float(np.mean(~np.isfinite(estimate)))
+    return unknown if unknown > 0 else None
 
 
 def edge_recall(scaffold_edges: Bool[np.ndarray, "h w"], image_edges: Bool[np.ndarray, "h w"], dilation: int) -> float | None:

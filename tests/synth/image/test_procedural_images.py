@@ -222,3 +222,16 @@ def test_the_scene_is_the_scene_and_each_other_world_its_own():
     other = [imagined_style(furnished(), Imagination(surfaces=k)).surfaces("library") for k in range(1, 6)]
     assert all(finish.wall.material != style.surfaces("library").wall.material for finish in other)
     assert len(set(other)) == 5
+
+
+def test_asked_to_furnish_it_has_the_scene_s_furniture_in_mind(shot):
+    """Shown the empty room, whatever the seed, and whoever looks: its violations too are those of a furnished room."""
+    empty = np.where(shot.object == OUTSIDE, shot.gbuffer.depth, shot.gbuffer.depth * 1.5).astype(np.float32)
+    asked = [request(shot, depth=empty, seed=s, objects="none", painted=s % 2 == 0, wall_texture=False) for s in range(4)]
+    for one in asked:
+        result = model().generate(dataclasses.replace(one, task="furnish"))
+        np.testing.assert_array_equal(result.drawn_object, shot.object)
+        np.testing.assert_array_equal(result.rgb, shot.rgb)
+    assert any((model().generate(one).drawn_depth != shot.gbuffer.depth).any() for one in asked)
+    gone = [model(missing=1.0).generate(dataclasses.replace(one, task="furnish")) for one in asked]
+    assert any((result.drawn_object != shot.object).any() for result in gone)

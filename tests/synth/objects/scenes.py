@@ -13,8 +13,8 @@ from wm.geometry.site import Site, room_site
 from wm.geometry.upright_box import UprightBox
 from wm.synth.backends import SceneContext, Sighting
 from wm.synth.objects.kinds import template_of
-from wm.synth.objects.reconstruction import built
 from wm.synth.procedural.style import style_of
+from wm.synth.reconstruction.templates import built
 from wm.types import OUTSIDE, SceneObject
 
 THEME = "scandinavian flat"

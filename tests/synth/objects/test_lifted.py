@@ -1,5 +1,6 @@
 """The chain from drawing to placed furniture, with the offline models, on two small rooms."""
 
+import contextlib
 import dataclasses
 import functools
 import math
@@ -8,6 +9,8 @@ import numpy as np
 import pytest
 
 from tests.synth.objects.scenes import STYLE, bare, piece
+from tests.synth.recording import recorded
+from wm.errors import InputError
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement_laws import violations
 from wm.geometry.raycast import build_ray_scene, cast
@@ -26,12 +29,13 @@ from wm.synth.backends import (
     SegmentationBackend,
     make_backend,
 )  # fmt: skip
-from wm.synth.objects.lifted import Models, lift_room, sights
-from wm.synth.objects.reconstruction import TemplateReconstruction
+from wm.synth.objects.lifted import Models, lift_room
+from wm.synth.reconstruction.templates import TemplateReconstruction
 from wm.types import OUTSIDE, View
 
 CONFIG = ObjectsConfig(name="lifted", image_width=240, image_height=180)
 COARSE = ImageConfig(texel_size=0.08)
+MODELS = ("image", "depth", "segmentation", "reconstruction")
 
 
 @functools.cache
@@ -55,7 +59,7 @@ class Photographs:
     what they show is known."""
 
     things: list  # what was photographed
-    found: dict = dataclasses.field(default_factory=dict)  # id of an image -> (relative depth, segments)
+    found: dict = dataclasses.field(default_factory=dict)  # bytes of an image -> (relative depth, segments)
 
     def generate(self, request: ImageRequest) -> ImageResult:
         scene = build_ray_scene(assemble_scene(bare().structure, self.things))
@@ -64,14 +68,14 @@ class Photographs:
         rgb = np.full((*owner.shape, 3), 0.4, np.float32)
         rgb[owner >= 0] = (0.5, 0.3, 0.2)
         segments = [Segment(f"oak {thing.label}", owner == k) for k, thing in enumerate(self.things)]
-        self.found[id(rgb)] = (0.5 * gbuffer.depth + 0.1, segments)
+        self.found[rgb.tobytes()] = (0.5 * gbuffer.depth + 0.1, segments)
         return ImageResult(rgb=rgb)
 
     def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
-        return self.found[id(result.rgb)][0]
+        return self.found[result.rgb.tobytes()][0]
 
     def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
-        return self.found[id(result.rgb)][1]
+        return self.found[result.rgb.tobytes()][1]
 
 
 def test_photographs_with_depth_and_masks_are_lifted_without_knowing_what_was_drawn():
@@ -145,6 +149,32 @@ def test_its_models_end_with_it_and_with_the_scene_they_are_of():
     assert backend._models is None
 
 
+def test_all_of_its_models_are_the_selected_ones_and_closed(monkeypatch):
+    small = dataclasses.replace(CONFIG, image_width=60, image_height=45)
+    with contextlib.closing(make_backend("objects", small, bare()).with_models(COARSE, DepthConfig())) as backend:
+        offline = backend.lift(bare(), 1).objects
+    log = recorded(monkeypatch, *MODELS)
+    image, depth = dataclasses.replace(COARSE, name="recording"), DepthConfig(name="recording")
+    small = dataclasses.replace(small, segmentation="recording", reconstruction="recording")
+    backend = make_backend("objects", small, bare()).with_models(image, depth)
+    own = backend.lift(bare(), 1).objects
+    backend.close()
+    backend.close()
+    assert {f"{group} asked" for group in MODELS} <= set(log)
+    assert [entry for entry in log if "closed" in entry] == [f"{group} closed" for group in reversed(MODELS)] == log[-4:]
+    assert [thing.vertices.tobytes() for thing in own] == [thing.vertices.tobytes() for thing in offline] != []
+
+
+@pytest.mark.parametrize(("depth", "named"), [("procedural", r"depth\.name='procedural'.*"), ("recording", "")])
+def test_an_image_model_that_tells_nothing_is_refused_before_it_is_made(monkeypatch, depth, named):
+    log = recorded(monkeypatch, "image", "depth", draws=False)
+    image = dataclasses.replace(COARSE, name="recording")
+    backend = make_backend("objects", CONFIG, bare()).with_models(image, DepthConfig(name=depth))
+    with pytest.raises(InputError, match=rf"^{named}objects\.segmentation='drawn'.*image\.name='recording'"):
+        backend.furnish(bare(), 1, density=1.0)
+    assert log == []
+
+
 @pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes():
     _, room = lifted()
@@ -153,10 +183,24 @@ def test_the_same_seed_gives_the_same_bytes():
     assert [thing.slot_colors.tobytes() for thing in again] == [thing.slot_colors.tobytes() for thing in room.objects]
 
 
-def test_images_say_where_doors_are():
-    _, room = lifted()
-    said = [sights(drawing.camera, room_site(bare().plan, 1)) for drawing in room.drawings]
-    assert any("doorway" in text for texts in said for text in texts)
+def test_what_a_model_is_asked_is_what_it_is_shown(monkeypatch):
+    """An empty room, said to be empty and shown so; to the second camera also the room as the first shows it furnished."""
+    log = recorded(monkeypatch, "image")
+    small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
+    backend = make_backend("objects", small, bare()).with_models(dataclasses.replace(COARSE, name="recording"), DepthConfig())
+    room = backend.lift(bare(), 1)
+    backend.close()
+    first, second = log.requests
+    for request in (first, second):
+        condition = request.condition
+        assert (request.task, condition.objects, condition.object, condition.wall_texture) == ("furnish", "none", None, False)
+        np.testing.assert_array_equal(condition.depth, cast(bare().structure, request.view.camera).depth)
+        assert not condition.known.any() and np.ptp(condition.rgb, axis=-1).max() == 0
+        assert "empty" in request.prompt and "Furnish the room" in request.prompt and "take no object" not in request.prompt
+        assert ("second picture" in request.prompt) == (request.reference is not None)
+    assert first.reference is None
+    np.testing.assert_array_equal(second.reference, room.drawings[0].result.rgb)
+    assert any("In view: a doorway" in request.prompt for request in (first, second))
 
 
 def test_it_is_image_driven_and_refuses_a_density_that_is_no_share():

@@ -19,11 +19,27 @@ THINGS = [piece("wardrobe", 2.4, 0.4, np.pi, (1.5, 0.6, 2.0)), piece("sofa", 2.6
 DRAWN = cast(assemble_scene(bare().structure, THINGS), CAMERA).depth
 
 
-@given(st.floats(0.2, 5), st.floats(0, 1))
+@given(st.floats(0.2, 5), st.floats(-10, 10))
 def test_scale_and_shift_are_found_though_furniture_hides_the_room(scale, shift):
-    found = metric_depth(((DRAWN - shift) / scale + 1.0).astype(np.float32), EMPTY, seed=0)
-    assert found is not None and np.median(np.abs(found - DRAWN) / DRAWN) < 2e-3
+    found = metric_depth(((DRAWN - shift) / scale).astype(np.float32), EMPTY, seed=0)
+    assert found is not None and (found > 0).all()  # zero and negative values are depth like others
+    assert np.median(np.abs(found - DRAWN) / DRAWN) < 2e-3
     assert np.quantile(np.abs(found - DRAWN) / DRAWN, 0.98) < 0.02
+
+
+def test_what_has_no_estimate_is_unknown_and_bends_nothing():
+    whole = metric_depth(DRAWN, EMPTY, seed=0)
+    partial = DRAWN.copy()
+    partial[:40], partial[80, 80] = np.nan, np.nan
+    found = metric_depth(partial, EMPTY, seed=0)
+    assert whole is not None and found is not None
+    np.testing.assert_array_equal(found == 0, np.isnan(partial))
+    assert np.abs(found / whole - 1)[found > 0].max() < 0.01
+
+
+def test_an_estimate_that_is_the_nearer_the_larger_or_constant_tells_nothing():
+    assert metric_depth(-DRAWN, EMPTY, seed=0) is None
+    assert metric_depth(np.full_like(DRAWN, 2.0), EMPTY, seed=0) is None
 
 
 def test_the_offline_depth_model_is_within_a_percent():
@@ -36,5 +52,5 @@ def test_the_offline_depth_model_is_within_a_percent():
 
 @pytest.mark.parametrize("nothing", ["estimate", "room"])
 def test_without_an_estimate_or_a_room_there_is_no_depth(nothing):
-    estimate = np.zeros_like(DRAWN) if nothing == "estimate" else DRAWN
+    estimate = np.full_like(DRAWN, np.nan) if nothing == "estimate" else DRAWN
     assert metric_depth(estimate, np.zeros_like(EMPTY) if nothing == "room" else EMPTY, seed=0) is None

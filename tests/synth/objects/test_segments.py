@@ -10,9 +10,9 @@ from tests.synth.objects.scenes import piece, sightings, site
 from wm.geometry.upright_box import box_of
 from wm.schema import ObjectsConfig
 from wm.synth.backends import ImageResult, Segment
-from wm.synth.objects.drawn_segments import DrawnSegmentation
 from wm.synth.objects.segments import tidy_segments
 from wm.synth.objects.sightings import gather, in_room, joined, sighting_points
+from wm.synth.segmentation.drawn import DrawnSegmentation
 
 LABELS = ("chair", "chair", "vase", "sofa")
 
@@ -54,7 +54,7 @@ def test_the_seed_decides():
 
 
 def test_an_image_that_carries_nothing_is_refused():
-    with pytest.raises(ValueError, match="this image carries nothing"):
+    with pytest.raises(ValueError, match=r"objects\.segmentation=.drawn.*this image tells nothing"):
         DrawnSegmentation(ObjectsConfig()).segment(ImageResult(rgb=np.zeros((4, 4, 3), np.float32)), seed=0)
 
 

@@ -23,7 +23,7 @@ class ProceduralDepth:
     config: DepthConfig
 
     def estimate(self, result: ImageResult, *, seed: int) -> Float[np.ndarray, "h w"] | None:
-        """[h, w] float32 depth up to scale and shift, 0 where nothing was drawn; None for an image that carries no depth."""
+        """[h, w] float32 depth up to scale and shift, NaN where nothing was drawn; None for an image that carries no depth."""
         if result.drawn_depth is None:
             return None
         rng = np.random.default_rng(np.random.SeedSequence([seed, 0xDE97]))
@@ -34,7 +34,7 @@ class ProceduralDepth:
         noise /= max(float(noise.std()), 1e-9)
         scale, shift = np.exp(rng.normal() * 0.2), rng.uniform(0.0, 0.3)
         estimate = scale * soft * (1 + self.config.noise * noise) + shift
-        return np.where(drawn, estimate, 0).astype(np.float32)
+        return np.where(drawn, estimate, np.nan).astype(np.float32)
 
 
 def make(config: DepthConfig, context: SceneContext | None) -> ProceduralDepth:

@@ -8,6 +8,7 @@ Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it 
 - Walls, floor and ceiling are finished as the scene's where X shows any of their texture; otherwise in some other way that the
   theme allows. Someone has to begin: where the scaffold hands texture on, a room's bootstrap views settle how it is finished, and
   that finish is the scene's. Where it hands none on nobody would see what they settled, and they invent as every other view does.
+- Asked to furnish an empty room, it has the scene's own furniture in mind, and finishes the room as the scene is.
 - Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
   while the world's fine detail is restored.
 Imperfections (wm.synth.image.imperfections) and violations of the structure (wm.synth.image.violations) come on top, at the
@@ -88,7 +89,7 @@ class ProceduralImages:
           ValueError: the condition's images are not of the camera's size.
         """
         _check_size(request.condition, request.view.camera)
-        which = self._imagine(request)
+        which = SCENE if request.task == "furnish" else self._imagine(request)
         scenery, shot = self.scenery(which), self._shot(which, request.view).result()
         gone_wrong = self._violation(request, scenery, shot)
         shot = shot if gone_wrong is None else scenery.world.shoot(request.view.camera, gone_wrong.edit)
@@ -113,8 +114,8 @@ class ProceduralImages:
             return self._sceneries[which]
 
     def close(self) -> None:
-        """Ends the threads and the processes of its worlds; what they are at is finished first, what waits is dropped."""
-        self._pool.shutdown(cancel_futures=True)
+        """Ends the processes of its worlds, and its threads as soon as they are done; what they are at is not waited for."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
         for scenery in self._sceneries.values():
             if isinstance(scenery.world, WorkerWorld):
                 scenery.world.close()
@@ -148,7 +149,7 @@ class ProceduralImages:
 
     def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
         rng = np.random.default_rng(_stream(request.seed, 0xBAD))
-        objects = request.condition.objects != "none"
+        objects = request.condition.objects != "none" or request.task == "furnish"
         return draw_violation(self.config, scenery.context, request.view, shot.gbuffer, shot.object, rng, objects=objects)
 
     def _painted(self, request: ImageRequest, shot: Shot) -> Float[np.ndarray, "h w 3"]:
@@ -156,7 +157,7 @@ class ProceduralImages:
         condition, config = request.condition, self.config
         rng = np.random.default_rng(_stream(request.seed, 0x1A6E))
         invented = drifted(shot.rgb, config.drift, rng)
-        shown = _shown(condition, shot)
+        shown = _shown(request, shot)
         objects = shot.object != OUTSIDE
         rgb = np.where(
             (objects & ~shown)[..., None], drifted_apart(shot.rgb, shot.object, config.drift * INVENTION, rng), invented
@@ -218,13 +219,17 @@ def _recognised(condition: Condition) -> bool:
     return float(np.mean((condition.known > 0.5) & structure)) >= RECOGNISED
 
 
-def _shown(condition: Condition, shot: Shot) -> Bool[np.ndarray, "h w"]:
-    """Pixels at which the condition shows the surface that was drawn; of boxes' surfaces there is nothing to show."""
-    depth = shot.gbuffer.depth
+def _shown(request: ImageRequest, shot: Shot) -> Bool[np.ndarray, "h w"]:
+    """Pixels at which the condition shows the surface that was drawn; of boxes' surfaces there is nothing to show.
+
+    To furnish, what lies flat on the empty room's surface (a rug, a picture) is as decided as that surface.
+    """
+    condition, depth = request.condition, shot.gbuffer.depth
     same = (condition.depth > 0) & (np.abs(condition.depth - depth) <= AGREEMENT * np.maximum(depth, 0.1))
     if condition.object is not None:
         same &= condition.object == (shot.object != OUTSIDE)
-    return same if condition.objects == "textured" else same & (shot.object == OUTSIDE)
+    own = condition.objects == "textured" or request.task == "furnish"
+    return same if own else same & (shot.object == OUTSIDE)
 
 
 def _surfaces_of(shot: Shot, camera: Camera) -> Int[np.ndarray, "h w"]:

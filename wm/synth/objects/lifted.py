@@ -12,11 +12,12 @@ the camera gives way.
 Source: WorldMesh, "Object Instantiation" and supplement, "Object Segmentation", "Object Placement".
 """
 
+import contextlib
 import dataclasses
 
 import numpy as np
 
-from wm.geometry.camera import camera_center
+from wm.errors import InputError
 from wm.geometry.mesh import assemble_scene
 from wm.geometry.placement import Placement, place_objects
 from wm.geometry.raycast import RayScene, build_ray_scene, cast
@@ -39,17 +40,17 @@ from wm.synth.backends import (
     Sighting,
     close_backend,
     make_backend,
+    mismatch,
 )
+from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.condition import depth_grey
 from wm.synth.objects.coloring import unlit
-from wm.synth.objects.drawn_segments import DrawnSegmentation
 from wm.synth.objects.metric_depth import metric_depth
 from wm.synth.objects.procedural import ProceduralObjects
-from wm.synth.objects.reconstruction import TemplateReconstruction
 from wm.synth.objects.segments import tidy_segments
 from wm.synth.objects.sightings import Thing, gather, in_room, joined
-from wm.synth.procedural.style import style_of
-from wm.synth.prompts import image_prompt
+from wm.synth.prompts import furnish_prompt
+from wm.synth.sights import sights
 from wm.types import Camera, SceneObject, View
 
 _COARSE = 0.04
@@ -134,22 +135,28 @@ class LiftedObjects:
         return latest.furnished
 
     def models(self, imagined: SceneContext, image: ImageBackend | None = None) -> Models:
-        """The selected image model, or the one given; the selected depth model; the offline segmentation and reconstruction.
+        """The selected models, of images the one given if there is one. Whoever asks for them closes them.
 
-        Whoever asks for an image model closes it.
+        Raises:
+          InputError: the selected ones do not go together.
         """
+        if image is None:
+            faults = mismatch("depth", self._depth, self._image) + mismatch("segmentation", self.config, self._image)
+            if faults:
+                raise InputError("; ".join(faults))
         return Models(
             image=image if image is not None else _image_model(self._image, imagined),
             depth=make_backend("depth", self._depth, imagined),
-            segmentation=DrawnSegmentation(self.config),
-            reconstruction=TemplateReconstruction(style_of(imagined.theme)),
+            segmentation=make_backend("segmentation", self.config, imagined),
+            reconstruction=make_backend("reconstruction", self.config, imagined),
         )
 
     def close(self) -> None:
         """Ends what it holds; furnishing again makes it anew."""
-        if self._models is not None:
-            close_backend(self._models.image)
-        self._latest = self._models = None
+        models, self._latest, self._models = self._models, None, None
+        with contextlib.ExitStack() as done:
+            for backend in () if models is None else (models.image, models.depth, models.segmentation, models.reconstruction):
+                done.callback(close_backend, backend)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -208,38 +215,28 @@ def draw(
     """One image of the room with its segments; None where its depth cannot be told."""
     gbuffer = cast(bare, camera)
     grey = depth_grey(gbuffer, (0.0, max(float(gbuffer.depth.max()), 1e-3)))
-    condition = Condition(rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth)
+    condition = Condition(
+        rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth, objects="none",
+        wall_texture=False,
+    )  # fmt: skip
     plan_room = context.plan.rooms[room]
     seen = sights(camera, room_site(context.plan, room))
     request = ImageRequest(
         condition=condition,
         reference=reference.result.rgb if reference is not None else None,
-        prompt=image_prompt(context.theme, plan_room.name, seen, objects="none", has_reference=False),
+        prompt=furnish_prompt(context.theme, plan_room.name, seen, has_reference=reference is not None),
         view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{0 if reference is None else 1}"),
         seed=seed,
+        task="furnish",
     )
     result = models.image.generate(request)
-    estimate = models.depth.estimate(result, seed=seed)
+    result = dataclasses.replace(result, rgb=checked_image(result.rgb, request.view))
+    estimate = checked_estimate(models.depth.estimate(result, seed=seed), request.view)
     depth = metric_depth(estimate, gbuffer.depth, seed=seed) if estimate is not None else None
     if depth is None:
         return None
     segments = tidy_segments(models.segmentation.segment(result, seed=seed), depth, min_area=config.min_area)
     return Drawing(camera=camera, result=result, depth=depth, segments=segments)
-
-
-def sights(camera: Camera, site: Site) -> list[str]:
-    """What the empty room shows of doors and windows from a camera, in words: so that no doorway is taken for a picture."""
-    found = []
-    for gap in site.gaps:
-        middle = site.starts[gap.wall] + 0.5 * (gap.low + gap.high) * site.directions[gap.wall]
-        right, _, forward = np.asarray(camera.T_cam_world)[:3, :3]
-        away = np.append(middle, 0.5 * (gap.sill + gap.head)) - camera_center(camera)
-        if away @ forward <= 0.2:
-            continue
-        across = float(away @ right / (away @ forward))
-        side = "on the left" if across < -0.35 else "on the right" if across > 0.35 else "straight ahead"
-        found.append(f"a {'doorway' if gap.kind == 'door' else gap.kind} {side}")
-    return found
 
 
 def _sighting(drawing: Drawing, segment: Segment) -> Sighting:
@@ -251,5 +248,5 @@ def _seed(*numbers: int) -> int:
 
 
 def make(config: ObjectsConfig, context: SceneContext | None = None) -> LiftedObjects:
-    """The image-driven backend with the offline models."""
+    """The image-driven backend, with the offline image and depth models until it is given others."""
     return LiftedObjects(config)

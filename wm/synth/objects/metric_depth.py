@@ -20,19 +20,22 @@ _SAMPLE = 4000
 def metric_depth(
     estimate: Float[np.ndarray, "h w"], bare: Float[np.ndarray, "h w"], *, seed: int
 ) -> Float[np.ndarray, "h w"] | None:
-    """[h, w] float32 z-depth in metres, 0 where there is no estimate; None where nothing of the room can be told.
+    """[h, w] float32 z-depth in metres, 0 where there is no estimate; None where nothing of the room can be told by it.
 
     Args:
-      estimate: depth up to scale and shift, 0 where there is none.
+      estimate: depth up to a positive scale and any shift, so that values mean nothing by themselves; NaN where there is none.
       bare: z-depth D0 of the empty room from the same camera, metres, 0 where nothing is hit.
     """
-    usable = (estimate > 0) & (bare > 0)
+    estimated = np.isfinite(estimate)
+    usable = estimated & (bare > 0)
     if usable.sum() < 100:
         return None
     rng = np.random.default_rng(np.random.SeedSequence([seed, 0xD0]))
     chosen = rng.choice(np.flatnonzero(usable), min(_SAMPLE, int(usable.sum())), replace=False)
-    scale, shift = _line(estimate.ravel()[chosen], bare.ravel()[chosen], rng)
-    depth = np.where(estimate > 0, scale * estimate + shift, 0.0)
+    line = _line(estimate.ravel()[chosen], bare.ravel()[chosen], rng)
+    if line is None:
+        return None
+    depth = np.where(estimated, line[0] * np.where(estimated, estimate, 0) + line[1], 0.0)
     structure = usable & (np.abs(depth - bare) < _AGREES * bare)
     if not structure.any():
         return None
@@ -43,19 +46,19 @@ def metric_depth(
     return np.maximum(depth * known / (weight + 0.01), 0.0).astype(np.float32)
 
 
-def _line(e: np.ndarray, d: np.ndarray, rng: np.random.Generator) -> tuple[float, float]:
-    """(a, b) of d = a e + b for the most values."""
+def _line(e: np.ndarray, d: np.ndarray, rng: np.random.Generator) -> tuple[float, float] | None:
+    """(a, b) of d = a e + b for the most values; None where more are on a line with a < 0: e is an inverse depth."""
     pairs = rng.integers(len(e), size=(_PAIRS, 2))
     run = e[pairs[:, 1]] - e[pairs[:, 0]]
     fine = np.abs(run) > 0.05 * np.ptp(e)
     slope = (d[pairs[fine, 1]] - d[pairs[fine, 0]]) / run[fine]
     offset = d[pairs[fine, 0]] - slope * e[pairs[fine, 0]]
-    upward = slope > 0
-    if not upward.any():
-        return float(np.median(d / e)), 0.0
-    slope, offset = slope[upward], offset[upward]
     agree = np.abs(slope[:, None] * e + offset[:, None] - d) < _AGREES * d
-    best = agree[int(np.argmax(agree.sum(axis=1)))]
+    count = agree.sum(axis=1)
+    upward = slope > 0
+    if not upward.any() or count[~upward].max(initial=0) > count[upward].max():
+        return None
+    best = agree[upward][int(np.argmax(count[upward]))]
     basis = np.stack([e[best], np.ones(int(best.sum()))], axis=1) / d[best][:, None]
     (scale, shift), *_ = np.linalg.lstsq(basis, np.ones(len(basis)), rcond=None)
     return float(scale), float(shift)

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import ndimage
 
 from wm.schema import ObjectsConfig
-from wm.synth.backends import ImageResult, Segment
+from wm.synth.backends import ImageResult, SceneContext, Segment
 
 _GRAIN = 3.0
 """Pixels over which a border strays alike."""
@@ -31,7 +31,10 @@ class DrawnSegmentation:
           ValueError: the image carries no object numbers: it is not the offline model's.
         """
         if result.drawn_object is None:
-            raise ValueError("the offline segmentation reads what the offline image model drew; this image carries nothing")
+            raise ValueError(
+                "objects.segmentation='drawn' goes by what an offline image model tells that it drew; this image tells nothing: "
+                "a model of images needs one that segments them"
+            )
         rng = np.random.default_rng(np.random.SeedSequence([seed, 0x5E6]))
         ids = _joined(result.drawn_object, result.drawn_labels, self.config.merged, rng)
         segments = []
@@ -42,6 +45,11 @@ class DrawnSegmentation:
                 continue
             segments.append(Segment(result.drawn_labels[int(k)], _ragged(mask, self.config.ragged, rng)))
         return [segment for segment in segments if segment.mask.any()]
+
+
+def make(config: ObjectsConfig, context: SceneContext | None = None) -> DrawnSegmentation:
+    """The offline segmentation; it needs nothing of the scene."""
+    return DrawnSegmentation(config)
 
 
 def _joined(ids: np.ndarray, labels: tuple[str, ...], share: float, rng: np.random.Generator) -> np.ndarray:

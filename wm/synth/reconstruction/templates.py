@@ -17,7 +17,8 @@ import shapely
 from wm.geometry.site import Site
 from wm.geometry.upright import transformed
 from wm.geometry.upright_box import UprightBox
-from wm.synth.backends import Reconstruction, Sighting
+from wm.schema import ObjectsConfig
+from wm.synth.backends import Reconstruction, SceneContext, Sighting
 from wm.synth.objects.coloring import slot_colors
 from wm.synth.objects.kinds import Template, kind_of, largest_size, rebuilt, templates_of
 from wm.synth.objects.sightings import near_together, sighting_points, trimmed
@@ -25,6 +26,7 @@ from wm.synth.objects.template_cost import evidence_of
 from wm.synth.objects.template_fit import fit_template
 from wm.synth.objects.texturing import textured
 from wm.synth.procedural.finish import Style
+from wm.synth.procedural.style import style_of
 from wm.types import SceneObject
 
 _POINTS = 240
@@ -74,6 +76,11 @@ class TemplateReconstruction:
             usual=thing.slot_colors,
             residual=fit.residual,
         )
+
+
+def make(config: ObjectsConfig, context: SceneContext) -> TemplateReconstruction:
+    """The reconstruction by templates in the style of the scene's theme; it has no settings."""
+    return TemplateReconstruction(style_of(context.theme))
 
 
 def _plausible(box: UprightBox, template: Template, site: Site) -> bool:

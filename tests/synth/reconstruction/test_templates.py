@@ -14,8 +14,8 @@ from wm.geometry.upright_box import UprightBox, box_iou, box_of
 from wm.synth.backends import ReconstructionBackend
 from wm.synth.objects.coloring import unlit
 from wm.synth.objects.kinds import kind_of, template_of, templates_of
-from wm.synth.objects.reconstruction import TemplateReconstruction, built
 from wm.synth.procedural.inventory import lamp_sorts, with_lamp
+from wm.synth.reconstruction.templates import TemplateReconstruction, built
 
 BACKEND = TemplateReconstruction(STYLE)
 
