@@ -95,8 +95,8 @@ def test_checked_inside_jit():
         error.throw()
 
 
-def total(gaussians, view, checked):
-    return render(gaussians, view, settings=SMALL, checked=checked).rgb.sum()
+def total(gaussians, view, checked, settings=SMALL):
+    return render(gaussians, view, settings=settings, checked=checked).rgb.sum()
 
 
 @pytest.mark.slow
@@ -121,11 +121,12 @@ def test_float64_comes_out_as_float32():
 
 
 @pytest.mark.slow
-def test_the_gradient_by_float64_is_float64():
+@pytest.mark.parametrize("compositor", ["loops", "interpreted"])
+def test_the_gradient_by_float64_is_float64(compositor):
     plain = jax.grad(total)(to_float32(cloud(4)), camera(), False)
     with jax.enable_x64(True):
         gaussians = jax.tree.map(lambda x: jnp.asarray(x, jnp.float64), to_float32(cloud(4)))
-        found = jax.grad(total)(gaussians, camera(), False)
+        found = jax.grad(total)(gaussians, camera(), False, dataclasses.replace(SMALL, compositor=compositor))
     for a, b in zip(jax.tree.leaves(found), jax.tree.leaves(plain)):
         assert a.dtype == np.float64
         np.testing.assert_allclose(a, b, rtol=1e-4, atol=1e-5)

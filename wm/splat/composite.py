@@ -1,16 +1,19 @@
 """Alpha compositing over tiles, front to back, and its derivative.
 
-Per pixel, over its tile's list: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 (l of project.py over sqrt 2),
-alpha = exp(min(log o - q, log alpha_max)), dropped below alpha_min; w_i = T_i alpha_i, T_{i+1} = T_i - w_i; features
-F = sum w_i f_i: colour, and depth z_i + s_i . d, which is linear in the pixel's place (u, v) in its tile and so three features,
-z_i + s_i . (centre of the tile - mean_i) and s_i, put together once a pixel. A pixel is finished once T < transmittance_min: the
-gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls in changes nothing.
+Logarithms are binary, since powers of two are cheap: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 with the l of project.py times
+sqrt(log2(e) / 2), so that 2^-q is the gaussian. The derivatives below are by natural ones; d log2 x = log2(e) d ln x.
+
+Per pixel, over its tile's list: alpha = 2^min(log2 o - q, log2 alpha_max), dropped below alpha_min; w_i = T_i alpha_i,
+T_{i+1} = T_i - w_i; features F = sum w_i f_i: colour, and depth z_i + s_i . d, which is linear in the pixel's place (u, v) in its
+tile and so three features, z_i + s_i . (centre of the tile - mean_i) and s_i, put together once a pixel. A pixel is finished once
+T < transmittance_min: the gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls in
+changes nothing.
 
 Backward, with g = dL/dF and g_T = dL/dT_final: the part of the loss still to come
 S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so it is walked front to back again and
 
-    dL/d log alpha_i = w_i g . f_i - S_i alpha_i / (1 - alpha_i)   (0 where alpha is clamped or cut),
-    dL/dq_i = -dL/d log alpha_i,   dL/d log o_i = dL/d log alpha_i,   dL/d f_i = sum over pixels of w_i g.
+    dL/d ln alpha_i = w_i g . f_i - S_i alpha_i / (1 - alpha_i)   (0 where alpha is clamped or cut),
+    dL/d log2 o_i = ln 2 dL/d ln alpha_i = -dL/dq_i,   dL/d f_i = w_i g,   each summed over pixels.
 
 Sums over a tile's pixels are taken with 1, u, v, u^2, uv, v^2, (u, v) from the tile's centre, along its rows and then down; the
 derivatives by mean and root follow from those six moments. The arithmetic is in _pairs.py; the lists are walked by _loops.py on
@@ -87,13 +90,13 @@ def _table(projected: Projected, frozen: Projected | None, settings: RasterSetti
 
 def _rows(projected: Projected, settings: RasterSettings) -> Float[Array, "n columns"]:
     culled = projected.opacity <= 0
-    log_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
+    log2_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
     features = [projected.color]
     if settings.depth:
         features.append(projected.depth[None])
     if has_slope(settings):
         features.append(projected.slope)
-    columns = [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log_opacity[None], *features]
+    columns = [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log2_opacity[None], *features]
     return jnp.concatenate(columns).T
 
 
