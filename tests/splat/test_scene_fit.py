@@ -170,7 +170,9 @@ def test_an_error_of_a_room_reaches_the_caller():
 
 def test_a_room_that_stops_keeps_its_last_good_state_and_the_others_go_on():
     bad = [dataclasses.replace(view, depth=np.full_like(view.depth, np.inf)) for view in VIEWS[1]]
-    result = run(views=[VIEWS[0], bad, VIEWS[2]])
+    steps = []
+    result = run(views=[VIEWS[0], bad, VIEWS[2]], progress=lambda done, total, info: steps.append((done, total)))
+    assert steps[-1] == (ROOMS * SETTINGS.steps, ROOMS * SETTINGS.steps)
     assert len(result.stopped) == 1 and "room 1, step 0" in result.stopped[0]
     assert raw(result.gaussians[1]) == raw(jax.tree.map(np.asarray, START[1])) and (result.gaussians[0].sh != START[0].sh).any()
 

@@ -30,7 +30,7 @@ class Fit:
     """What a fit came to."""
 
     gaussians: Gaussians  # NumPy float32 leaves, in the order of those it started from
-    history: tuple[FitPoint, ...]  # error against time
+    history: tuple[FitPoint, ...]  # error against time, up to these gaussians: points of steps that were taken back are not in it
     stopped: str | None  # why it ended early, in one sentence; None: it ran to its end
 
 

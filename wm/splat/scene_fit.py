@@ -8,7 +8,6 @@ gaussians are padded to a few common sizes.
 """
 
 import dataclasses
-import functools
 import queue
 import time
 from collections.abc import Callable, Sequence
@@ -176,20 +175,25 @@ class _Scene:
         task = self._task(room, state, last)
         try:
             if task is None:
-                self.report.skip(last - first)
+                self.report.skip(last - max(first, state.step))
                 state = dataclasses.replace(state, step=last)
             else:
-                report = functools.partial(self._report, room)
+                done = state.step
+
+                def report(step: int, info: dict) -> None:
+                    nonlocal done
+                    done = step
+                    self.report.step(info | {"room": room})
+
                 state = place.fit(task, self.capacity, report, checkpoints.keeper(round_, room))
+                if done < last:  # it stopped, and perhaps went back
+                    self.report.skip(last - done)
         except Interrupted as interrupted:
             if interrupted.resumable:
                 checkpoints.store(round_, room, to_arrays(interrupted.state))
             raise interrupted.__cause__ or interrupted from None
         checkpoints.store(round_, room, to_arrays(state))
         return state
-
-    def _report(self, room: int, done: int, info: dict) -> None:
-        self.report.step(info | {"room": room})
 
     def _task(self, room: int, state: RoomState, last: int) -> RoomTask | None:
         """What the fit of a room reads; None: there is nothing to fit."""
