@@ -154,8 +154,9 @@ def test_a_state_survives_its_arrays():
     assert arrays.keys() == again.keys()
     assert all(arrays[name].tobytes() == again[name].tobytes() and arrays[name].dtype == again[name].dtype for name in arrays)
     assert {name.split(".")[0] for name in to_arrays(initial_state(START[0]))}.isdisjoint({"exposure", "residual", "watch"})
-    with pytest.raises(ValueError, match=r"mu\.sh"):
-        from_arrays({name: value for name, value in arrays.items() if name != "mu.sh"})
+    for name in ("mu.sh", "watch.best.sh", "watch.known", "residual.visits"):
+        with pytest.raises(ValueError, match=rf"has no {name}:"):
+            from_arrays({key: value for key, value in arrays.items() if key != name})
 
 
 def test_an_error_of_a_room_reaches_the_caller():
