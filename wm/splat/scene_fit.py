@@ -18,9 +18,11 @@ import jax
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.batch import Device
 from wm.splat.checkpoint import from_arrays, to_arrays
+from wm.splat.checks import check_fit, check_raster
 from wm.splat.curve import FitPoint
-from wm.splat.fit import DEFAULT_RASTER, Progress, seed_of
+from wm.splat.fit import Progress, seed_of
 from wm.splat.padding import Capacity, pad_gaussians
+from wm.splat.project import DEFAULTS
 from wm.splat.room_fit import Interrupted
 from wm.splat.room_state import RoomState, initial_state
 from wm.splat.room_task import Here, Place, RoomTask
@@ -51,7 +53,7 @@ def fit_scene(
     views: RoomViews,
     *,
     settings: FitSettings,
-    raster: RasterSettings = DEFAULT_RASTER,
+    raster: RasterSettings = DEFAULTS,
     key: jax.Array,
     heldout: RoomViews = lambda room: (),
     load: Load = lambda round_, room: None,
@@ -83,12 +85,14 @@ def fit_scene(
             the CPU here, if no `jax.config.update` of the caller decides them: workers have its environment only.
 
     Returns: the gaussians, the curves and what stopped early.
-    Raises: the error of a room (of `views`, say) once all rooms ended their round; a RuntimeError that names the room if the
-        process that fitted it has died, WorkerClosed if it was closed. A KeyboardInterrupt as soon as every room
-        under way has ended its step; all that was reached is stored.
+    Raises: TypeError or ValueError naming what is wrong with an argument, as `fit`. The error of a room (of `views`, say) once
+        all rooms ended their round; a RuntimeError that names the room if the process that fitted it has died, WorkerClosed if it
+        was closed. A KeyboardInterrupt as soon as every room under way has ended its step; all that was reached is stored.
     """
+    check_fit(settings)
+    check_raster(raster)
     scene = _Scene(
-        states=[initial_state(start) for start in gaussians],
+        states=[initial_state(start, f"gaussians[{room}]") for room, start in enumerate(gaussians)],
         views=views,
         heldout=heldout,
         settings=settings,
