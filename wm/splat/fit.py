@@ -9,7 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
-from wm.splat.batch import Compiled, Device, SeenView, to_target
+from wm.splat.batch import Compiled, Device, SeenView, default_device, to_target
 from wm.splat.checks import check_fit, check_gaussians, check_raster
 from wm.splat.curve import FitPoint
 from wm.splat.frozen import join_columns, pad_columns, visible_columns
@@ -80,7 +80,7 @@ def fit(
     if frozen is not None:
         check_gaussians(frozen, "frozen")
     start, seed, raster = initial_state(gaussians), seed_of(key), raster_for(settings, raster)
-    devices = list(devices or jax.devices()[:1])
+    devices = list(devices or [default_device()])
     started = time.perf_counter()
     behind = [] if frozen is None else [jax.device_put(pad_gaussians(frozen, len(frozen.opacity_logits)), devices[0])]
     shown = see_views([*views, *heldout], [behind] * (len(views) + len(heldout)), raster, devices[0])
