@@ -41,7 +41,7 @@ class SurfaceKind(enum.IntEnum):
 
 
 @jax.tree_util.register_dataclass
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Camera:
     """A pinhole camera; `width` and `height` are static under jit, the rest are arrays (host or device).
 
@@ -101,7 +101,7 @@ class Render:
     alpha: Any  # [h, w] 1 - transmittance
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class View:
     """A planned camera and why it stands there."""
 

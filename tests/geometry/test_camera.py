@@ -1,5 +1,6 @@
 """Laws of pinhole cameras: orthonormality, round trips, and the half-pixel convention."""
 
+import copy
 import dataclasses
 
 import numpy as np
@@ -17,6 +18,7 @@ from wm.geometry.camera import (
     scale_camera,
     unproject_depth,
 )
+from wm.types import View
 
 coordinate = st.floats(-50.0, 50.0)
 point = st.tuples(coordinate, coordinate, coordinate).map(np.array)
@@ -146,3 +148,13 @@ def test_what_is_no_camera_is_refused(change, message):
         unproject_depth(camera, np.zeros((3, 4)))
     with pytest.raises(ValueError, match="positive factor"):
         scale_camera(camera, 0.0)
+
+
+def test_cameras_and_views_are_compared_and_hashed_as_things():
+    """Field by field NumPy would raise, or say a truth for each number."""
+    camera = make_camera(np.zeros(3), np.ones(3), width=4, height=4, fov_deg=60.0)
+    view = View(camera=camera, room=0, kind="bootstrap", name="hall/bootstrap0")
+    for thing in (camera, view):
+        other = copy.deepcopy(thing)
+        assert thing == thing and thing != other and thing in [other, thing]
+        assert len({thing, other, thing}) == 2

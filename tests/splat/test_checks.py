@@ -1,6 +1,7 @@
 """Bad arguments of a render are named: where, what, and what would be right."""
 
 import dataclasses
+import inspect
 
 import jax
 import jax.numpy as jnp
@@ -8,10 +9,13 @@ import numpy as np
 import pytest
 from jax.experimental import checkify
 
+from tests.splat.rooms import views_of
 from tests.splat.scenes import camera, cloud, to_float32
-from wm.schema import RasterSettings
-from wm.splat import project, render
+from wm.schema import FitSettings, RasterSettings
+from wm.splat import fit, fit_scene, initial_gaussians, plan_tiles, project, rasterize, render
 from wm.splat.checks import check_background
+from wm.splat.fit import seed_of
+from wm.splat.planner import plan_inside_jit, plan_outside_jit
 
 SMALL = RasterSettings(chunk=1, block=4)  # compiles sooner
 
@@ -60,6 +64,98 @@ def test_camera_background_and_constants():
         render(gaussians, view, settings=RasterSettings(alpha_min=0.0))
 
 
+def with_value(settings, name, value):
+    """Settings with a value that the annotations of the tests' constructor might refuse."""
+    object.__setattr__(settings, name, value)
+    return settings
+
+
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        *(("blur", value) for value in (-0.1, np.inf, np.nan)),
+        *(("transmittance_min", value) for value in (-1e-4, 1.0, 2.0, np.nan)),
+        *(("near", value) for value in (-1.0, 0.0, np.inf)),
+        *(("frustum_margin", value) for value in (0.9, np.nan)),
+        *((name, value) for name in ("tile", "chunk", "block") for value in (0, -8, 8.0)),
+    ],
+)
+def test_constants_without_meaning_are_named(name, value):
+    settings, gaussians, view = with_value(RasterSettings(), name, value), to_float32(cloud(4)), camera()
+    projected = project(gaussians, view)
+    for call in (
+        lambda: render(gaussians, view, settings=settings),
+        lambda: rasterize(projected, plan_tiles(projected, 21, 13), 21, 13, settings),
+    ):
+        with pytest.raises(ValueError, match=rf"settings\.{name} is {value!r}; an? (number|integer) in [\[(]"):
+            call()
+
+
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        *((name, value) for name in ("batch", "rounds") for value in (0, 1.0)),
+        *((name, -1) for name in ("steps", "refine_every", "curve_points", "sh_degree")),
+        *(("opacity", value) for value in (0.0, 1.0, np.nan)),
+        *((name, np.nan) for name in ("spacing", "ssim_weight", "depth_weight", "normal_weight", "lr_means", "lr_final")),
+        *((name, 1.5) for name in ("ssim_weight", "refine_share", "refine_dead")),
+        *((name, 0.0) for name in ("spacing", "detail_spacing", "lr_final")),
+    ],
+)
+def test_numbers_of_a_fit_without_meaning_are_named(name, value):
+    settings = with_value(FitSettings(), name, value)
+    calls = (
+        lambda: fit(cloud(4), [], settings=settings, key=jax.random.key(0)),
+        lambda: fit_scene([cloud(4)], lambda room: [], settings=settings, key=jax.random.key(0)),
+        lambda: initial_gaussians([], settings=settings, rng=np.random.default_rng(0)),
+    )
+    for call in calls:
+        with pytest.raises(ValueError, match=rf"fit\.{name} is {value!r}; an? (number|integer) in [\[(]"):
+            call()
+
+
+def test_arguments_of_a_fit_are_named():
+    views, settings, key = views_of(count=1), FitSettings(), jax.random.key(0)
+    short, whole, raster = cloud(4).replace(quats=np.ones((3, 4))), cloud(4), RasterSettings(near=-1.0)
+    with pytest.raises(ValueError, match=r"settings\.near is -1\.0"):
+        fit(whole, views, settings=settings, raster=raster, key=key)
+    with pytest.raises(ValueError, match=r"settings\.near is -1\.0"):
+        fit_scene([whole], lambda room: views, settings=settings, raster=raster, key=key)
+    with pytest.raises(ValueError, match=r"leaves of gaussians have different lengths .*'quats': 3"):
+        fit(short, views, settings=settings, key=key)
+    with pytest.raises(ValueError, match=r"leaves of frozen have different lengths"):
+        fit(whole, views, settings=settings, key=key, frozen=short)
+    with pytest.raises(ValueError, match=r"leaves of gaussians\[1\] have different lengths"):
+        fit_scene([whole, short], lambda room: views, settings=settings, key=key)
+    with pytest.raises(TypeError, match=r"the key is a int; a JAX key"):
+        inspect.unwrap(seed_of)(0)  # as users have it, without the checks of the annotations that tests add
+
+
+@pytest.mark.parametrize(
+    "size, tile, rows, message",
+    [
+        ((13, 21), 8, 4, "its width is 21, not 13, its height is 13, not 21"),
+        ((21, 14), 8, 4, "its height is 13, not 14"),
+        ((21, 13), 16, 4, "its tile is 8, not 16"),
+        ((21, 13), 8, 3, "its gaussians is 4, not 3"),
+    ],
+)
+def test_a_plan_of_another_image_is_refused(size, tile, rows, message):
+    projected = project(to_float32(cloud(4)), camera())
+    plan, fewer = plan_tiles(projected, 21, 13), jax.tree.map(lambda x: x[..., :rows], projected)
+    for call in (rasterize, jax.jit(rasterize, static_argnums=(2, 3, 4))):
+        with pytest.raises(ValueError, match=message):
+            call(fewer, plan, *size, RasterSettings(tile=tile))
+
+
+@pytest.mark.parametrize("planner", ["host", "traced"])
+def test_a_plan_says_what_it_is_of_wherever_it_was_made(planner):
+    projected, settings = project(to_float32(cloud(4)), camera()), RasterSettings(planner=planner)
+    outside = plan_outside_jit(projected, 21, 13, settings)
+    within = jax.jit(lambda projected: plan_inside_jit(projected, 21, 13, settings))(projected)
+    assert outside.of == within.of == (21, 13, 8, 4)
+
+
 @pytest.mark.parametrize(
     "field, value", [("focal", [0.0, 18.0]), ("principal", [np.nan, 1.0]), ("T_cam_world", np.full((4, 4), np.inf))]
 )
@@ -95,8 +191,8 @@ def test_checked_inside_jit():
         error.throw()
 
 
-def total(gaussians, view, checked):
-    return render(gaussians, view, settings=SMALL, checked=checked).rgb.sum()
+def total(gaussians, view, checked, settings=SMALL):
+    return render(gaussians, view, settings=settings, checked=checked).rgb.sum()
 
 
 @pytest.mark.slow
@@ -121,11 +217,12 @@ def test_float64_comes_out_as_float32():
 
 
 @pytest.mark.slow
-def test_the_gradient_by_float64_is_float64():
+@pytest.mark.parametrize("compositor", ["loops", "interpreted"])
+def test_the_gradient_by_float64_is_float64(compositor):
     plain = jax.grad(total)(to_float32(cloud(4)), camera(), False)
     with jax.enable_x64(True):
         gaussians = jax.tree.map(lambda x: jnp.asarray(x, jnp.float64), to_float32(cloud(4)))
-        found = jax.grad(total)(gaussians, camera(), False)
+        found = jax.grad(total)(gaussians, camera(), False, dataclasses.replace(SMALL, compositor=compositor))
     for a, b in zip(jax.tree.leaves(found), jax.tree.leaves(plain)):
         assert a.dtype == np.float64
         np.testing.assert_allclose(a, b, rtol=1e-4, atol=1e-5)

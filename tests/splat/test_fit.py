@@ -183,14 +183,19 @@ def test_who_computes_a_batch_changes_no_byte():
 @pytest.mark.slow
 def test_two_devices_give_the_bytes_of_one():
     code = (
-        "import dataclasses, jax; from tests.splat import test_fit as t;"
-        "settings = dataclasses.replace(t.SETTINGS, steps=4, batch=3);"
+        "import dataclasses, jax; from tests.splat import test_fit as t; from wm.splat import SceneRenderer;"
+        "settings = dataclasses.replace(t.SETTINGS, steps=4, batch=3); n, found = len(t.START.means), set();"
+        "lie = lambda *_: found.update(d for x in jax.live_arrays() if x.shape == (n, 4) for d in x.devices());"
+        "second = jax.default_device(jax.devices()[1]); second.__enter__();"
+        "other = t.run(settings=settings, progress=lie); found.add(SceneRenderer([t.START], t.RASTER)._device);"
+        "second.__exit__(None, None, None);"
         "one, two = (t.run(settings=settings, devices=jax.devices()[:count]) for count in (1, 2));"
-        "print(len(jax.devices()), t.same_bytes(one.gaussians, two.gaussians))"
+        "same = [t.same_bytes(one.gaussians, fit.gaussians) for fit in (two, other)];"
+        "print(len(jax.devices()), *same, *(device.id for device in found))"
     )
     env = os.environ | {"JAX_NUM_CPU_DEVICES": "2", "JAX_PLATFORMS": "cpu"}
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env, check=True)
-    assert found.stdout.split() == ["2", "True"]
+    assert found.stdout.split() == ["2", "True", "True", "1"]  # the last: JAX's default device is where a fit computes
 
 
 def test_an_error_of_the_callback_is_raised_with_what_was_reached():

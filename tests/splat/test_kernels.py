@@ -75,15 +75,17 @@ def test_views_side_by_side_are_those_one_by_one():
         np.testing.assert_allclose(derivatives.color[k], derivative.color, atol=1e-5)
 
 
+@pytest.mark.parametrize("x64", [False, True])
 @pytest.mark.parametrize(("compositor", "kernels"), [("kernels", True), ("auto", True), ("loops", False)])
-def test_they_translate_to_triton_where_there_is_no_gpu(compositor, kernels, monkeypatch):
+def test_they_translate_to_triton_where_there_is_no_gpu(compositor, kernels, x64, monkeypatch):
     projected = jit_project(to_float32(cloud()), camera())
     plan, seen = plan_tiles(projected, *SIZE), to_float32(cotangent(camera()))
     monkeypatch.setattr(jax, "default_backend", lambda: "gpu")
-    traced = jax.jit(image_and_derivative.__wrapped__, static_argnames="constants").trace(
-        projected, plan, seen, with_(TILES[0], compositor)
-    )
-    assert ("__gpu$xla.gpu.triton" in traced.lower(lowering_platforms=("cuda",)).as_text()) == kernels
+    with jax.enable_x64(x64):
+        traced = jax.jit(image_and_derivative.__wrapped__, static_argnames="constants").trace(
+            projected, plan, seen, with_(TILES[0], compositor)
+        )
+        assert ("__gpu$xla.gpu.triton" in traced.lower(lowering_platforms=("cuda",)).as_text()) == kernels
 
 
 @pytest.mark.skipif(jax.default_backend() == "gpu", reason="there is a GPU")

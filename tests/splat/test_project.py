@@ -68,8 +68,13 @@ CULLED = {
     "overflowing scale": {"log_scales": [[100.0, 0.0, 0.0]]},
     "NaN opacity": {"opacity_logits": [np.nan]},
     "opacity 0": {"opacity_logits": [-50.0]},
+    "opacity logit -inf": {"opacity_logits": [-np.inf]},
+    "infinite scale": {"log_scales": [[np.inf, 0.0, 0.0]]},
+    "infinitely thin": {"log_scales": [[-1.0, -2.0, -np.inf]]},
+    "infinite quat": {"quats": [[1.0, np.inf, 0.0, 0.0]]},
     "opacity below the cut": {"opacity_logits": [-6.0]},
     "NaN colour": {"sh": [[[np.nan, 0.0, 0.0]]]},
+    "infinite colour": {"sh": [[[0.0, -np.inf, 0.0]]]},
 }
 
 
@@ -80,10 +85,26 @@ def _gradient(gaussians, view):
     return sum(x.sum() for x in (seen.mean2d, seen.root, seen.opacity, seen.color, seen.depth))
 
 
+def _with_first(fields):
+    """A cloud whose first gaussian has these fields."""
+    fields = {name: np.concatenate([np.asarray(value), getattr(cloud(4), name)[1:]]) for name, value in fields.items()}
+    return to_float32(cloud(4).replace(**fields))
+
+
+def test_an_opacity_logit_of_infinity_is_that_of_opacity_1():
+    """The one number that is not finite and means something: files have it, as the logit of 1."""
+    infinite, finite = (_with_first({"opacity_logits": [logit]}) for logit in (np.inf, 50.0))
+    view = to_float32(camera())
+    assert jit_project(infinite, view).opacity[0] == 1
+    chex.assert_trees_all_equal(jit_project(infinite, view), jit_project(finite, view))
+    gradients = [_gradient(gaussians, view) for gaussians in (infinite, finite)]
+    chex.assert_trees_all_equal(*gradients)
+    assert np.isfinite(gradients[0][0].opacity_logits).all()
+
+
 @pytest.mark.parametrize("case", CULLED)
 def test_culled_gaussians_have_no_opacity_no_extent_and_no_gradient(case):
-    fields = {name: np.concatenate([np.asarray(value), getattr(cloud(4), name)[1:]]) for name, value in CULLED[case].items()}
-    gaussians, view = to_float32(cloud(4).replace(**fields)), to_float32(camera())
+    gaussians, view = _with_first(CULLED[case]), to_float32(camera())
     found = jit_project(gaussians, view)
     assert all(np.isfinite(x).all() for x in jax.tree.leaves(found))
     assert found.opacity[0] == 0 and (found.extent[:, 0] == 0).all()

@@ -154,8 +154,9 @@ def test_a_state_survives_its_arrays():
     assert arrays.keys() == again.keys()
     assert all(arrays[name].tobytes() == again[name].tobytes() and arrays[name].dtype == again[name].dtype for name in arrays)
     assert {name.split(".")[0] for name in to_arrays(initial_state(START[0]))}.isdisjoint({"exposure", "residual", "watch"})
-    with pytest.raises(ValueError, match=r"mu\.sh"):
-        from_arrays({name: value for name, value in arrays.items() if name != "mu.sh"})
+    for name in ("mu.sh", "watch.best.sh", "watch.known", "residual.visits"):
+        with pytest.raises(ValueError, match=rf"has no {name}:"):
+            from_arrays({key: value for key, value in arrays.items() if key != name})
 
 
 def test_an_error_of_a_room_reaches_the_caller():
@@ -170,7 +171,9 @@ def test_an_error_of_a_room_reaches_the_caller():
 
 def test_a_room_that_stops_keeps_its_last_good_state_and_the_others_go_on():
     bad = [dataclasses.replace(view, depth=np.full_like(view.depth, np.inf)) for view in VIEWS[1]]
-    result = run(views=[VIEWS[0], bad, VIEWS[2]])
+    steps = []
+    result = run(views=[VIEWS[0], bad, VIEWS[2]], progress=lambda done, total, info: steps.append((done, total)))
+    assert steps[-1] == (ROOMS * SETTINGS.steps, ROOMS * SETTINGS.steps)
     assert len(result.stopped) == 1 and "room 1, step 0" in result.stopped[0]
     assert raw(result.gaussians[1]) == raw(jax.tree.map(np.asarray, START[1])) and (result.gaussians[0].sh != START[0].sh).any()
 

@@ -88,6 +88,12 @@ def test_a_fit_that_diverges_late_ends_at_its_best_pass():
     assert mean_loss(result.gaussians) < mean_loss(START)
 
 
+def test_the_curve_of_a_fit_that_went_back_ends_where_it_went_back_to():
+    result = run(settings=rates_times(1000, lr_final=1.0, curve_points=SETTINGS.steps + 1))
+    assert result.stopped is not None and int(result.stopped.split()[-1]) == 0
+    assert [point.step for point in result.history] == [0]
+
+
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_depth_that_is_not_finite_is_named_with_its_view(value):
     depth = VIEWS[2].depth.copy()

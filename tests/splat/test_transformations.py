@@ -61,6 +61,23 @@ def test_vmap_over_cameras_gives_the_gradients(alone, settings):
     assert_same((images, values, gradients), alone)
 
 
+@pytest.mark.parametrize(
+    "derivative",
+    [
+        lambda f, x: jax.jvp(f, (x,), (x,)),
+        lambda f, x: jax.jvp(jax.grad(f), (x,), (x,)),
+        lambda f, x: jax.grad(lambda x: jax.grad(f)(x).sum())(x),
+    ],
+    ids=["forward", "forward over reverse", "reverse twice"],
+)
+def test_other_derivatives_than_the_first_in_reverse_mode_raise(derivative):
+    def brightness(logits):
+        return render(GAUSSIANS.replace(opacity_logits=logits), VIEWS[0], settings=SMALL).rgb.sum()
+
+    with pytest.raises((TypeError, ValueError), match=r"custom_vjp|Reverse-mode differentiation does not work"):
+        derivative(brightness, GAUSSIANS.opacity_logits)
+
+
 def two_phases(devices: int):
     """The image and gradient of every view, planned between two sharded passes: what the docstring of render shows."""
     mesh = jax.make_mesh((devices,), ("views",), axis_types=(jax.sharding.AxisType.Auto,))

@@ -19,6 +19,7 @@
     watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
     exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
     fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
+    scene_render.py  SceneRenderer: renders of many rooms
     room_task.py  what the fit of one of them reads; room_worker.py: room_workers, which do it in processes of their own
     metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
     ply.py        load_ply, save_ply
@@ -30,12 +31,14 @@ from wm.splat.composite import rasterize
 from wm.splat.curve import FitPoint
 from wm.splat.fit import Fit, FitError, fit
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
+from wm.splat.padding import Capacity
 from wm.splat.ply import PlyError, load_ply, save_ply
 from wm.splat.project import Projected, project
 from wm.splat.render import render
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
 from wm.splat.room_worker import RoomWorker, room_workers
 from wm.splat.scene_fit import SceneFit, fit_scene
+from wm.splat.scene_render import SceneRenderer
 from wm.splat.ssim import ssim, ssim_map
 from wm.splat.tiles import TilePlan, plan_tiles, plan_views
 from wm.splat.tiles_traced import TracedPlan, plan_tiles_on_device, plan_tiles_traced
@@ -43,6 +46,7 @@ from wm.splat.training import TrainingView
 
 __all__ = [
     "WIDE",
+    "Capacity",
     "DepthError",
     "Fit",
     "FitError",
@@ -53,6 +57,7 @@ __all__ = [
     "ReprojectionError",
     "RoomWorker",
     "SceneFit",
+    "SceneRenderer",
     "TilePlan",
     "TracedPlan",
     "TrainingView",

@@ -26,7 +26,9 @@ from wm.splat._pairs import DEPTH, GEOMETRY, Composite, alpha_at, gradient_colum
 from wm.splat._tile_sums import POWERS
 from wm.splat.tiles import TilePlan
 
-warnings.filterwarnings("ignore", message="The Pallas Triton backend is deprecated")  # a caller can do nothing about it
+# A caller can do nothing about it. For the process: JAX warns when it lowers a kernel, long after the call here has returned; so
+# this module is imported where kernels are asked for, and nowhere else.
+warnings.filterwarnings("ignore", "The Pallas Triton backend is deprecated", DeprecationWarning)
 
 UNROLLED = 8
 """Gaussians between two looks at whether any pixel is open; their rows are fetched while the first of them is composited."""
@@ -135,7 +137,7 @@ def _backward(_, table, ids, tile, start, length, t_end, F_end, g_t, g_F, rows, 
     by_features = [g_F[lane, j, :] for j in range(features)]
     u, v = walk.u, walk.v
     powers = {0: (jnp.ones_like(u), jnp.ones_like(v)), 1: (u, v), 2: (u * u, v * v)}
-    column = jnp.arange(LANES)
+    column, nothing = jnp.arange(LANES), jnp.zeros(LANES, jnp.float32)
 
     def step(i, state):
         t, rest = state
@@ -147,7 +149,7 @@ def _backward(_, table, ids, tile, start, length, t_end, F_end, g_t, g_F, rows, 
         moments = [jnp.sum(d * powers[m][0] * powers[n][1]) for m, n in POWERS]
         sums = [jnp.sum(w * g) for g in by_features]
         derivatives = gradient_columns(gaussian.place, gaussian.root, gaussian.tilt, moments, sums, settings)
-        row = functools.reduce(lambda row, jd: jnp.where(column == jd[0], jd[1], row), enumerate(derivatives), jnp.zeros(LANES))
+        row = functools.reduce(lambda row, jd: jnp.where(column == jd[0], jd[1], row), enumerate(derivatives), nothing)
         plgpu.store(rows.at[walk.start + i, column], row, mask=column < len(derivatives))
         return t - w, rest
 
@@ -165,7 +167,7 @@ def _sum_rows(rows, entries, start, count, sums):
         entry = plgpu.load(entries.at[first + k], mask=has, other=0)
         return total + plgpu.load(rows.at[entry[:, None], column[None]], mask=has[:, None] & wide[None], other=0.0)
 
-    total = jax.lax.fori_loop(0, jnp.max(number), step, jnp.zeros((SUMMED, LANES)))
+    total = jax.lax.fori_loop(0, jnp.max(number), step, jnp.zeros((SUMMED, LANES), jnp.float32))
     plgpu.store(sums.at[gaussian[:, None], column[None]], total, mask=there[:, None] & wide[None])
 
 
@@ -182,13 +184,13 @@ class _Walk:
     def gaussian(self, i) -> "_Gaussian":
         """The i-th of the list; one past its end has alpha 0 everywhere."""
         id_ = self.ids[jnp.minimum(self.start + i, self.ids.shape[0] - 1)]
-        x, y, l0, l1, l2, log_opacity, *features = (self.table[id_, j] for j in range(self.table.shape[1]))
+        x, y, l0, l1, l2, log2_opacity, *features = (self.table[id_, j] for j in range(self.table.shape[1]))
         x, y = x - self.x, y - self.y
-        log_opacity = jnp.where(i < self.count, log_opacity, -jnp.inf)
+        log2_opacity = jnp.where(i < self.count, log2_opacity, -jnp.inf)
         tilt = features[DEPTH + 1 :]
         if has_slope(self.settings):
             features[DEPTH] -= tilt[0] * x + tilt[1] * y
-        alpha = alpha_at(self.u - x, self.v - y, l0, l1, l2, log_opacity, self.settings)
+        alpha = alpha_at(self.u - x, self.v - y, l0, l1, l2, log2_opacity, self.settings)
         return _Gaussian((x, y), (l0, l1, l2), features, tilt, alpha)
 
 

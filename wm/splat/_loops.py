@@ -66,8 +66,8 @@ def backward(table, plan: TilePlan, composite: Composite, cotangent: Composite, 
             entry, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
             w, t = stage(weights, t, alpha)
             shares = stage(_shares, w, _features(g, origin, settings), g_F)
-            d_log_alpha, rest = stage(slopes, rest, alpha, w, shares)
-            by_place = stage(moments, stage(moments_of_rows, d_log_alpha))
+            d_ln_alpha, rest = stage(slopes, rest, alpha, w, shares)
+            by_place = stage(moments, stage(moments_of_rows, d_ln_alpha))
             by_features = stage(total, stage(products_of_rows, w, g_F))
             rows = _gradient_rows(g, origin, by_place, by_features, settings)
             return i + settings.chunk, t, rest, gradient.at[entry].add(rows, mode="promise_in_bounds")
@@ -103,7 +103,7 @@ def _shares(w, features, g_F):
 
 
 def _slopes(rest, alpha, w, shares, settings: RasterSettings):
-    """dL/d log alpha of the chunk [pixels, chunk, lanes], and the part of the loss still to come after it [pixels, lanes]."""
+    """dL/d ln alpha of the chunk [pixels, chunk, lanes], and the part of the loss still to come after it [pixels, lanes]."""
     ds = []
     for k in range(settings.chunk):
         rest = rest - shares[:, k]
@@ -124,11 +124,11 @@ def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
     g = jnp.stack([g[..., j] for j in range(table.shape[1])])  # moved, the axis would stay last in memory and lanes apart
     u, v = (x[:, None, None] for x in offsets(settings.tile))
 
-    def alphas(x, y, l0, l1, l2, log_opacity):
-        return alpha_at(u - x, v - y, l0, l1, l2, log_opacity, settings)
+    def alphas(x, y, l0, l1, l2, log2_opacity):
+        return alpha_at(u - x, v - y, l0, l1, l2, log2_opacity, settings)
 
-    log_opacity = jnp.where(step < count, g[5], -jnp.inf)
-    return entry, g, apart(start[0] < 0, alphas, g[0] - origin[0], g[1] - origin[1], g[2], g[3], g[4], log_opacity)
+    log2_opacity = jnp.where(step < count, g[5], -jnp.inf)
+    return entry, g, apart(start[0] < 0, alphas, g[0] - origin[0], g[1] - origin[1], g[2], g[3], g[4], log2_opacity)
 
 
 def _features(g, origin, settings: RasterSettings):
@@ -141,7 +141,7 @@ def _features(g, origin, settings: RasterSettings):
 
 
 def _gradient_rows(g, origin, by_place, by_features, settings: RasterSettings):
-    """Derivatives by every column of the table, [chunk, lanes, columns], from moments of dL/d log alpha and sums of w g."""
+    """Derivatives by every column of the table, [chunk, lanes, columns], from moments of dL/d ln alpha and sums of w g."""
     place = (g[0] - origin[0], g[1] - origin[1])
     by_place, by_features = ([x[:, j] for j in range(x.shape[1])] for x in (by_place, by_features))
     return jnp.stack(gradient_columns(place, g[2:5], g[GEOMETRY + DEPTH + 1 :], by_place, by_features, settings), -1)

@@ -11,17 +11,17 @@ import jax.numpy as jnp
 
 from wm.schema import RasterSettings
 from wm.splat._axes import has_slope
-from wm.splat._exp2 import exp2_between
+from wm.splat._exp2 import exp2_between, exp2_error
 from wm.types import record
 
 GEOMETRY = 6
-"""Columns of the table before the features: mean x, y, root l0, l1, l2 over sqrt 2, log opacity."""
+"""Columns of the table before the features: mean x, y, l0, l1, l2 and log2 o, as composite.py has them."""
 
 DEPTH = 3
 """Of the features, the first that is depth: that of the centre in the table, that at the tile's centre where it is composited."""
 
 CLAMPED = 1e-6
-"""Alphas closer than this (relative) to alpha_max are the clamped ones: the exponential of the clamp rounds."""
+"""Alphas closer than this (relative) to alpha_max are the clamped ones, or closer than the power of two at the clamp is wrong."""
 
 
 @record
@@ -33,12 +33,12 @@ class Composite:
     length: Any  # [lanes] int32 entries visited before the list ended or every pixel was finished; no gradient
 
 
-def alpha_at(dx, dy, l0, l1, l2, log_opacity, settings: RasterSettings):
-    """Alpha at an offset from a gaussian's mean, cut and clamped; logarithms are binary."""
+def alpha_at(dx, dy, l0, l1, l2, log2_opacity, settings: RasterSettings):
+    """Alpha at an offset from a gaussian's mean, cut and clamped."""
     lowest, highest = math.log2(settings.alpha_min), math.log2(settings.alpha_max)
-    log_alpha = log_opacity - (l0 * dx + l1 * dy) ** 2 - (l2 * dy) ** 2
-    kept = log_alpha >= lowest
-    return jnp.where(kept, exp2_between(jnp.where(kept, jnp.minimum(log_alpha, highest), 0.0), lowest), 0.0)
+    log2_alpha = log2_opacity - (l0 * dx + l1 * dy) ** 2 - (l2 * dy) ** 2
+    kept = log2_alpha >= lowest
+    return jnp.where(kept, exp2_between(jnp.where(kept, jnp.minimum(log2_alpha, highest), 0.0), lowest), 0.0)
 
 
 def weight(t, alpha, settings: RasterSettings):
@@ -47,19 +47,25 @@ def weight(t, alpha, settings: RasterSettings):
 
 
 def slope(rest, alpha, w, share, settings: RasterSettings):
-    """dL/d log alpha, from the part of the loss still to come behind the gaussian; 0 where alpha is clamped or cut."""
-    free = (w > 0) & (alpha < settings.alpha_max * (1 - CLAMPED))
+    """dL/d ln alpha, from the part of the loss still to come behind the gaussian; 0 where alpha is clamped or cut."""
+    free = (w > 0) & (alpha < settings.alpha_max * (1 - clamp_tolerance(settings)))
     return jnp.where(free, share - rest * (alpha / (1 - alpha)), 0.0)
 
 
+def clamp_tolerance(settings: RasterSettings) -> float:
+    """How far, relatively, a clamped alpha may lie below alpha_max; a constant of the settings."""
+    lowest, highest = math.log2(settings.alpha_min), math.log2(settings.alpha_max)
+    return max(CLAMPED, exp2_error(highest, lowest) + 2.0**-24)  # what it is compared with is rounded too
+
+
 def gradient_columns(place, root, tilt, by_place, by_features, settings: RasterSettings) -> list:
-    """Derivatives by every column of the table.
+    """Derivatives by every column of the table, whose logarithms are binary.
 
     Args:
         place: x, y of the mean from the tile's centre.
         root: l0, l1, l2.
         tilt: depth's slope to the right and down; not read unless depth is slanted.
-        by_place: moments of dL/d log2 alpha over the tile, as `_tile_sums.POWERS` orders them.
+        by_place: moments of dL/d ln alpha over the tile, as `_tile_sums.POWERS` orders them.
         by_features: sums of w g over the tile, by feature.
     """
     (x, y), (l0, l1, l2) = place, root

@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 
 from wm.schema import RasterSettings
@@ -23,6 +24,12 @@ from wm.types import Camera, Gaussians, Render
 
 Device = Any
 """A `jax.Device`, which is a variable to type checkers."""
+
+
+def default_device() -> Device:
+    """Where JAX computes unless told otherwise: `jax.default_device`, whatever form it has, or the first there is."""
+    (device,) = jnp.zeros(()).devices()
+    return device
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

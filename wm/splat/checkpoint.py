@@ -47,6 +47,8 @@ def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
     Raises: ValueError naming what is missing, or that the history has other fields.
     """
     needed = [*(f"{group}.{leaf}" for group in _GROUPS for leaf in _LEAVES), *_OTHERS]
+    for prefix, kind in (("residual", Residual), ("watch", Watch)):
+        needed += _names(kind, prefix) if _has(prefix, arrays) else []
     missing = [name for name in needed if name not in arrays]
     if missing:
         raise ValueError(f"a stored room has no {', '.join(missing)}: not written by this version")
@@ -80,9 +82,23 @@ def _gaussians(prefix: str, arrays: Mapping[str, np.ndarray]) -> Gaussians:
     return Gaussians(**{leaf: np.asarray(arrays[f"{prefix}.{leaf}"]) for leaf in _LEAVES})
 
 
+def _has(prefix: str, arrays: Mapping[str, np.ndarray]) -> bool:
+    """Whether any of a record is there."""
+    return any(name.startswith(f"{prefix}.") for name in arrays)
+
+
+def _names(kind, prefix: str) -> list[str]:
+    """The names under which `_flat` writes a record."""
+    names = []
+    for field in dataclasses.fields(kind):
+        name = f"{prefix}.{field.name}"
+        names += [f"{name}.{leaf}" for leaf in _LEAVES] if field.type is Gaussians else [name]
+    return names
+
+
 def _record(kind, prefix: str, arrays: Mapping[str, np.ndarray]):
     """The record that `_flat` wrote, scalars as Python numbers; None if it wrote none."""
-    if not any(name.startswith(f"{prefix}.") for name in arrays):
+    if not _has(prefix, arrays):
         return None
     values = {}
     for field in dataclasses.fields(kind):

@@ -1,10 +1,11 @@
-"""What is wrong with the arguments of a render, said once and clearly: shapes and dtypes when traced, values on request.
+"""What is wrong with the arguments of a render or a fit, said once and clearly: shapes and dtypes when traced, values on request.
 
 Shapes and dtypes are known while tracing, so checking them costs nothing in a compiled program. Values are looked at on the host
 where they are there, and inside jit by `jax.experimental.checkify`.
 """
 
-from collections.abc import Callable
+import dataclasses
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any
 
@@ -14,7 +15,7 @@ import numpy as np
 from jax.core import Tracer
 from jax.experimental import checkify
 
-from wm.schema import COMPOSITORS, PLANNERS, RasterSettings
+from wm.schema import COMPOSITORS, PLANNERS, FitSettings, RasterSettings
 from wm.types import Camera, Gaussians
 
 DEGREES = {1: 0, 4: 1, 9: 2, 16: 3}
@@ -22,6 +23,31 @@ DEGREES = {1: 0, 4: 1, 9: 2, 16: 3}
 
 _SHAPES = {"means": ("n", 3), "quats": ("n", 4), "log_scales": ("n", 3), "opacity_logits": ("n",), "sh": ("n", "k", 3)}
 _CAMERA = {"T_cam_world": (4, 4), "focal": (2,), "principal": (2,)}
+
+_RASTER = {
+    "blur": "[0, inf)",
+    "transmittance_min": "[0, 1)",
+    "near": "(0, inf)",
+    "frustum_margin": "[1, inf)",
+    **dict.fromkeys(("tile", "chunk", "block"), "[1, inf)"),
+}
+"""The intervals of the rasterizer's constants; those that the schema has as integers are integers."""
+
+_FIT = {
+    **dict.fromkeys(("spacing", "detail_spacing"), "(0, inf)"),
+    "opacity": "(0, 1)",
+    **dict.fromkeys(("batch", "rounds"), "[1, inf)"),
+    **dict.fromkeys(("steps", "refine_every", "curve_points"), "[0, inf)"),
+    "ssim_weight": "[0, 1]",
+    **dict.fromkeys(("normal_weight", "depth_weight"), "[0, inf)"),
+    **dict.fromkeys(("lr_means", "lr_quats", "lr_scales", "lr_opacities", "lr_sh", "lr_exposure"), "[0, inf)"),
+    "lr_final": "(0, inf)",
+    "refine_share": "[0, 1]",
+    "refine_spare": "[0, inf)",
+    "refine_dead": "(0, 1)",
+    "sh_degree": "[0, 3]",
+}
+"""The same of the numbers of a fit."""
 
 
 def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> None:
@@ -31,19 +57,30 @@ def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) 
         TypeError: a leaf is no array of real floating-point numbers.
         ValueError: a shape, the image size or a constant is wrong.
     """
-    for name, shape in _SHAPES.items():
-        _check_leaf(f"gaussians.{name}", getattr(gaussians, name), shape)
+    check_gaussians(gaussians)
     for name, shape in _CAMERA.items():
         _check_leaf(f"camera.{name}", getattr(camera, name), shape)
-    rows = {name: getattr(gaussians, name).shape[0] for name in _SHAPES}
-    if len(set(rows.values())) > 1:
-        raise ValueError(f"the leaves of gaussians have different lengths {rows}; one row a gaussian in each would be right")
-    if gaussians.sh.shape[1] not in DEGREES:
-        raise ValueError(
-            f"gaussians.sh has {gaussians.sh.shape[1]} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right"
-        )
     if min(camera.width, camera.height) < 1:
         raise ValueError(f"camera has {camera.width} x {camera.height} pixels; at least 1 x 1 would be right")
+    check_raster(settings)
+
+
+def check_gaussians(gaussians: Gaussians, name: str = "gaussians") -> None:
+    """Raises TypeError or ValueError where a leaf of gaussians, which are called `name`, is no array of its shape."""
+    for leaf, shape in _SHAPES.items():
+        _check_leaf(f"{name}.{leaf}", getattr(gaussians, leaf), shape)
+    rows = {leaf: getattr(gaussians, leaf).shape[0] for leaf in _SHAPES}
+    if len(set(rows.values())) > 1:
+        raise ValueError(f"the leaves of {name} have different lengths {rows}; one row a gaussian in each would be right")
+    if gaussians.sh.shape[1] not in DEGREES:
+        raise ValueError(
+            f"{name}.sh has {gaussians.sh.shape[1]} coefficients a channel; 1, 4, 9 or 16 (degree 0 to 3) would be right"
+        )
+
+
+def check_raster(settings: RasterSettings) -> None:
+    """Raises ValueError where a constant of the rasterizer has no meaning, or none on this machine."""
+    _check_numbers("settings", settings, _RASTER)
     if not 1e-30 <= settings.alpha_min < settings.alpha_max <= 1:
         raise ValueError(
             f"settings.alpha_min {settings.alpha_min!r} and alpha_max {settings.alpha_max!r} are out of order; "
@@ -58,6 +95,11 @@ def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) 
         )
     if settings.compositor in ("kernels", "interpreted") and settings.tile.bit_count() != 1:
         raise ValueError(f"settings.tile {settings.tile} does not suit kernels; a power of two would be right")
+
+
+def check_fit(settings: FitSettings) -> None:
+    """Raises ValueError naming the number of a fit that has no meaning."""
+    _check_numbers("fit", settings, _FIT)
 
 
 def check_background(background: Any, camera: Camera) -> None:
@@ -113,6 +155,18 @@ def _require(is_good: Callable, name: str, x: Any, wanted: str) -> None:
         checkify.check(rows.all(), f"{name}[{{row}}] is bad; {wanted} would be right", row=first)
     elif not rows.all():
         raise ValueError(f"{name}[{first}] is {x[first]}; {wanted} would be right")
+
+
+def _check_numbers(record: str, settings: Any, intervals: Mapping[str, str]) -> None:
+    kinds = {field.name: field.type for field in dataclasses.fields(settings)}
+    for name, interval in intervals.items():
+        value, whole = getattr(settings, name), kinds[name] is int
+        low, high = map(float, interval[1:-1].split(","))
+        above = low <= value if interval[0] == "[" else low < value
+        below = value <= high if interval[-1] == "]" else value < high
+        if not (above and below) or (whole and not isinstance(value, int)):
+            kind = "an integer" if whole else "a number"
+            raise ValueError(f"{record}.{name} is {value!r}; {kind} in {interval} would be right")
 
 
 def _check_leaf(name: str, x: Any, shape: tuple) -> None:

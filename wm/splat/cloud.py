@@ -22,6 +22,8 @@ from scipy.spatial import KDTree
 
 from wm.geometry.camera import camera_rotation, unproject_depth
 from wm.schema import FitSettings
+from wm.splat.checks import check_fit
+from wm.splat.harmonics import SH_C0
 from wm.splat.padding import CULLED_LOGIT
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
@@ -38,9 +40,6 @@ DROP, RELATIVE_DROP = 0.1, 0.08
 
 RANDOM_OPACITY = 0.5
 """Initial opacity of the `random` variant, as in the prototype's figures: opaque ones in free air hide each other."""
-
-SH_C0 = 0.28209479177387814
-"""The constant spherical harmonic, 1 / (2 sqrt(pi)): colour = 0.5 + SH_C0 * sh_0."""
 
 _BITS = 19
 _SHIFT = 0.381966
@@ -150,8 +149,12 @@ def initial_gaussians(
         rng: read by "random" only.
         complete: from the cloud of the views that of the whole room.
 
+    Raises:
+        ValueError: a number of the settings is out of its range, or `init` is none of these.
+
     Source: paper, "Geometry-Regularized 3DGS Scene Reconstruction"; "flat" is ours.
     """
+    check_fit(settings)
     cloud = complete(surface_cloud(views, settings.spacing, settings.detail_spacing))
     n = len(cloud.points)
     tangential = np.where(cloud.spacings < settings.spacing, TANGENTIAL_DETAIL, TANGENTIAL)

@@ -1,16 +1,19 @@
 """Alpha compositing over tiles, front to back, and its derivative.
 
-Per pixel, over its tile's list: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 (l of project.py over sqrt 2),
-alpha = exp(min(log o - q, log alpha_max)), dropped below alpha_min; w_i = T_i alpha_i, T_{i+1} = T_i - w_i; features
-F = sum w_i f_i: colour, and depth z_i + s_i . d, which is linear in the pixel's place (u, v) in its tile and so three features,
-z_i + s_i . (centre of the tile - mean_i) and s_i, put together once a pixel. A pixel is finished once T < transmittance_min: the
-gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls in changes nothing.
+Logarithms are binary, since powers of two are cheap: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 with the l of project.py times
+sqrt(log2(e) / 2), so that 2^-q is the gaussian. The derivatives below are by natural ones; d log2 x = log2(e) d ln x.
+
+Per pixel, over its tile's list: alpha = 2^min(log2 o - q, log2 alpha_max), dropped below alpha_min; w_i = T_i alpha_i,
+T_{i+1} = T_i - w_i; features F = sum w_i f_i: colour, and depth z_i + s_i . d, which is linear in the pixel's place (u, v) in its
+tile and so three features, z_i + s_i . (centre of the tile - mean_i) and s_i, put together once a pixel. A pixel is finished once
+T < transmittance_min: the gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls
+in changes nothing.
 
 Backward, with g = dL/dF and g_T = dL/dT_final: the part of the loss still to come
 S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so it is walked front to back again and
 
-    dL/d log alpha_i = w_i g . f_i - S_i alpha_i / (1 - alpha_i)   (0 where alpha is clamped or cut),
-    dL/dq_i = -dL/d log alpha_i,   dL/d log o_i = dL/d log alpha_i,   dL/d f_i = sum over pixels of w_i g.
+    dL/d ln alpha_i = w_i g . f_i - S_i alpha_i / (1 - alpha_i)   (0 where alpha is clamped or cut),
+    dL/d log2 o_i = ln 2 dL/d ln alpha_i = -dL/dq_i,   dL/d f_i = w_i g,   each summed over pixels.
 
 Sums over a tile's pixels are taken with 1, u, v, u^2, uv, v^2, (u, v) from the tile's centre, along its rows and then down; the
 derivatives by mean and root follow from those six moments. The arithmetic is in _pairs.py; the lists are walked by _loops.py on
@@ -32,8 +35,9 @@ from wm.splat._axes import has_slope
 from wm.splat._blocks import in_blocks
 from wm.splat._pairs import DEPTH, GEOMETRY, Composite
 from wm.splat._tile_sums import offsets
+from wm.splat.checks import check_raster
 from wm.splat.project import DEFAULTS, Projected
-from wm.splat.tiles import TilePlan
+from wm.splat.tiles import Planned, TilePlan
 from wm.types import Background, Render
 
 
@@ -50,7 +54,7 @@ def rasterize(
 
     Args:
         projected: what `project` returned.
-        plan: what `plan_tiles` returned for the same width, height and settings.
+        plan: what `plan_tiles` returned for as many gaussians and the same width, height and settings.
         width, height: of the image, pixels.
         settings: alpha_min, alpha_max, transmittance_min, tile, chunk, depth, slanted and compositor are read here.
         background: colour behind everything; None is black.
@@ -58,9 +62,17 @@ def rasterize(
 
     Returns:
         The image, float32 even where float64 is enabled. With `settings.depth` False its depth is 0 everywhere and costs nothing.
+
+    Raises:
+        ValueError: a constant has no meaning, or the plan is of another image or of another number of gaussians.
+
+    Differentiable once, in reverse mode (`jax.grad`, `jax.vjp`): its derivative is written out.
     """
+    check_raster(settings)
     plan = jax.tree.map(jnp.asarray, plan)
     projected, frozen = jax.tree.map(lambda x: jnp.asarray(x, jnp.float32), (projected, frozen))
+    n = sum(part.opacity.shape[0] for part in (projected, frozen) if part is not None)
+    _check_plan(plan, Planned(width, height, settings.tile, n))
     composite = _composite(_table(projected, frozen, settings), plan, -(-width // settings.tile), settings)
     image = functools.partial(_image, plan=plan, width=width, height=height, tile=settings.tile)
     t = image(composite.transmittance)
@@ -69,6 +81,13 @@ def rasterize(
         rgb = rgb + t[..., None] * jnp.asarray(background, jnp.float32)
     depth = safe_div(image(_depth(composite.features, settings)), 1 - t) if settings.depth else jnp.zeros_like(t)
     return Render(rgb=rgb, depth=depth, alpha=1 - t)
+
+
+def _check_plan(plan: TilePlan, wanted: Planned) -> None:
+    """Raises unless a plan is of this image: the walk looks at no bound."""
+    wrong = [f"{name} is {a}, not {b}" for name, a, b in zip(Planned._fields, plan.of, wanted) if a != b]
+    if wrong:
+        raise ValueError(f"the plan is of another image: its {', its '.join(wrong)}; one of this projection would be right")
 
 
 @functools.partial(jax.custom_vjp, nondiff_argnums=(2,))
@@ -87,13 +106,13 @@ def _table(projected: Projected, frozen: Projected | None, settings: RasterSetti
 
 def _rows(projected: Projected, settings: RasterSettings) -> Float[Array, "n columns"]:
     culled = projected.opacity <= 0
-    log_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
+    log2_opacity = jnp.where(culled, -jnp.inf, jnp.log2(jnp.where(culled, 1.0, projected.opacity)))
     features = [projected.color]
     if settings.depth:
         features.append(projected.depth[None])
     if has_slope(settings):
         features.append(projected.slope)
-    columns = [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log_opacity[None], *features]
+    columns = [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log2_opacity[None], *features]
     return jnp.concatenate(columns).T
 
 

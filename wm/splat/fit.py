@@ -9,17 +9,17 @@ import jax.numpy as jnp
 import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
-from wm.splat.batch import Compiled, Device, SeenView, to_target
+from wm.splat.batch import Compiled, Device, SeenView, default_device, to_target
+from wm.splat.checks import check_fit, check_gaussians, check_raster
 from wm.splat.curve import FitPoint
 from wm.splat.frozen import join_columns, pad_columns, visible_columns
 from wm.splat.padding import Capacity, host, pad_gaussians
+from wm.splat.project import DEFAULTS
 from wm.splat.room_fit import Interrupted, RoomFit
 from wm.splat.room_state import RoomState, initial_state
 from wm.splat.step import project_view, raster_for
 from wm.splat.training import TrainingView
 from wm.types import Gaussians
-
-DEFAULT_RASTER = RasterSettings()
 
 Progress = Callable[[int, int, dict], None]
 """Called with (steps done, steps in all, what is worth showing) after every step."""
@@ -30,7 +30,7 @@ class Fit:
     """What a fit came to."""
 
     gaussians: Gaussians  # NumPy float32 leaves, in the order of those it started from
-    history: tuple[FitPoint, ...]  # error against time
+    history: tuple[FitPoint, ...]  # error against time, up to these gaussians: points of steps that were taken back are not in it
     stopped: str | None  # why it ended early, in one sentence; None: it ran to its end
 
 
@@ -47,7 +47,7 @@ def fit(
     views: Sequence[TrainingView],
     *,
     settings: FitSettings,
-    raster: RasterSettings = DEFAULT_RASTER,
+    raster: RasterSettings = DEFAULTS,
     key: jax.Array,
     frozen: Gaussians | None = None,
     heldout: Sequence[TrainingView] = (),
@@ -62,7 +62,7 @@ def fit(
         settings: steps, learning rates, weights of the loss, points of the curve. (`rounds` is for `fit_scene`.)
         raster: the rasterizer's constants; `depth` is set here: without depth weight no depth is rendered.
         key: a JAX key; the order of the views follows from it. Same key, same bytes.
-        frozen: gaussians that are rendered too and not moved.
+        frozen: gaussians that are rendered too and not moved. A view's scaffold hides what is well behind it (frozen.py).
         heldout: views to measure the curve on; never trained on.
         progress: called after every step.
         devices: where to compute; JAX's default device if None. Several share the views of a batch, and change no byte.
@@ -70,12 +70,17 @@ def fit(
     Returns: the gaussians and the curve. Where a loss or gradient is not finite, or the loss blows up (watch.py), the fit ends
         early with the last good state, or the best, and `stopped` names room, step, view and term; never NaN. A
         KeyboardInterrupt ends it likewise.
-    Raises: ValueError without views, or if gaussians to start from are not finite. FitError from any other exception on the way.
+    Raises: TypeError or ValueError that names what is wrong with an argument: no views, a number of the settings out of its
+        range, gaussians of other shapes or not finite, no key. FitError from any other exception on the way.
     """
+    check_fit(settings)
+    check_raster(raster)
     if not views:
         raise ValueError("a fit needs at least one view")
-    raster = raster_for(settings, raster)
-    devices = list(devices or jax.devices()[:1])
+    if frozen is not None:
+        check_gaussians(frozen, "frozen")
+    start, seed, raster = initial_state(gaussians), seed_of(key), raster_for(settings, raster)
+    devices = list(devices or [default_device()])
     started = time.perf_counter()
     behind = [] if frozen is None else [jax.device_put(pad_gaussians(frozen, len(frozen.opacity_logits)), devices[0])]
     shown = see_views([*views, *heldout], [behind] * (len(views) + len(heldout)), raster, devices[0])
@@ -84,7 +89,7 @@ def fit(
         heldout=shown[len(views) :],
         settings=settings,
         compiled=Compiled(raster=raster, normals=settings.normal_weight > 0, capacity=Capacity()),
-        seed=seed_of(key),
+        seed=seed,
         room=views[0].room,
         count=len(gaussians.opacity_logits),
         rows=len(gaussians.opacity_logits),
@@ -96,7 +101,6 @@ def fit(
         if progress is not None:
             progress(done, settings.steps, info)
 
-    start = initial_state(gaussians)
     try:
         return _result(room_fit.run(start, settings.steps, report))
     except Interrupted as interrupted:
@@ -140,6 +144,11 @@ def see_views(
 
 
 def seed_of(key: jax.Array) -> tuple[int, ...]:
-    """The integers of a JAX key, typed or raw."""
+    """The integers of a JAX key, typed or raw.
+
+    Raises: TypeError for anything else.
+    """
+    if not isinstance(key, jax.Array | np.ndarray):
+        raise TypeError(f"the key is a {type(key).__name__}; a JAX key, such as jax.random.key(0), would be right")
     data = jax.random.key_data(key) if jnp.issubdtype(key.dtype, jax.dtypes.prng_key) else key
     return tuple(int(word) for word in np.asarray(data).ravel())

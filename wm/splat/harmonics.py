@@ -2,6 +2,9 @@
 
 from jaxtyping import Array, Float
 
+SH_C0 = 0.28209479177387814
+"""The constant one, 1 / (2 sqrt(pi)): colour = 0.5 + SH_C0 * sh_0."""
+
 
 def harmonics(direction: Float[Array, "3 n"] | None, degree: int) -> list:
     """The (degree + 1)^2 basis functions at unit directions.
@@ -16,7 +19,7 @@ def harmonics(direction: Float[Array, "3 n"] | None, degree: int) -> list:
     Source: Sloan, "Efficient Spherical Harmonic Evaluation" (2013), with the Condon-Shortley signs used by Kerbl et al. (2023).
     Constants are sqrt(1 / 4 pi), sqrt(3 / 4 pi), ... to float64 digits.
     """
-    basis = [0.28209479177387814]
+    basis = [SH_C0]
     if degree == 0 or direction is None:
         return basis
     x, y, z = direction

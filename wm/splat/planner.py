@@ -5,6 +5,7 @@ accelerator, after a first pass that counts. Inside, where shapes are fixed befo
 number of entries: on a CPU a callback to the host makes it, elsewhere the graph does.
 """
 
+import dataclasses
 import functools
 from typing import Any
 
@@ -14,7 +15,7 @@ import numpy as np
 
 from wm.schema import RasterSettings
 from wm.splat.project import DEFAULTS, Projected
-from wm.splat.tiles import TilePlan, plan_tiles
+from wm.splat.tiles import Planned, TilePlan, plan_tiles
 from wm.splat.tiles_traced import plan_tiles_on_device, plan_tiles_traced
 
 TRACED_PER_GAUSSIAN, TRACED_PER_TILE = 16, 512
@@ -53,17 +54,17 @@ def plan_inside_jit(projected: Projected, width: int, height: int, settings: Ras
     return planners[settings.planner](projected)
 
 
-def _capacity(n: int, width: int, height: int, settings: RasterSettings) -> int:
-    tiles = -(-width // settings.tile) * -(-height // settings.tile)
+def _capacity(planned: Planned) -> int:
+    n, tiles = planned.gaussians, planned.tiles
     return max(min(n * tiles, TRACED_PER_GAUSSIAN * n + TRACED_PER_TILE * tiles), 1)
 
 
 def _plan_by_callback(projected: Projected, width: int, height: int, settings: RasterSettings) -> TilePlan:
-    tiles = -(-width // settings.tile) * -(-height // settings.tile)
-    capacity = _capacity(projected.opacity.shape[0], width, height, settings)
+    planned = Planned(width, height, settings.tile, projected.opacity.shape[0])
+    tiles, capacity = planned.tiles, _capacity(planned)
     lanes = min(settings.block, tiles)
     shapes = {"ids": (capacity,), "slot": (tiles,)} | dict.fromkeys(("tile", "start", "count"), (-(-tiles // lanes), lanes))
-    result = TilePlan(**{name: jax.ShapeDtypeStruct(shape, np.int32) for name, shape in shapes.items()})
+    result = TilePlan(of=planned, **{name: jax.ShapeDtypeStruct(shape, np.int32) for name, shape in shapes.items()})
     plan = functools.partial(_plan_within, width=width, height=height, settings=settings, capacity=capacity)
     return jax.pure_callback(plan, result, projected, vmap_method="sequential")
 
@@ -75,7 +76,7 @@ def _plan_within(projected: Projected, *, width: int, height: int, settings: Ras
 
 
 def _plan_in_graph(projected: Projected, width: int, height: int, settings: RasterSettings) -> TilePlan:
-    capacity = _capacity(projected.opacity.shape[0], width, height, settings)
+    capacity = _capacity(Planned(width, height, settings.tile, projected.opacity.shape[0]))
     traced = plan_tiles_traced(projected, width, height, settings, capacity=capacity)
 
     def complain(needed):
@@ -83,16 +84,17 @@ def _plan_in_graph(projected: Projected, width: int, height: int, settings: Rast
             functools.partial(_refuse, capacity=capacity), jax.ShapeDtypeStruct((), np.int32), needed, vmap_method="sequential"
         )
 
-    # the host hears of it only when there is no room, so that no device waits for it and several devices do not deadlock
+    # The host hears of it only when there is no room, so that no device waits for it and several devices do not deadlock. (Under
+    # vmap a branch becomes a selection: then it hears of every view.)
     nothing = jax.lax.cond(traced.needed > capacity, complain, jnp.zeros_like, traced.needed)
-    return traced.plan.replace(ids=traced.plan.ids + nothing)
+    return dataclasses.replace(traced.plan, ids=traced.plan.ids + nothing)
 
 
 def _refuse(needed, capacity: int):
     """Raises unless a plan has room for what it needs; else 0."""
     if needed > capacity:
         raise ValueError(
-            f"render under jit has room for {capacity} (gaussian, tile) entries and this view has {int(needed)}: plan it "
-            "outside jit (project, plan_tiles, rasterize), which has no limit"
+            f"render inside jit or grad has room for {capacity} (gaussian, tile) entries and this view has {int(needed)}: "
+            "plan it outside (project, plan_tiles, rasterize), which has no limit"
         )
     return np.int32(0)

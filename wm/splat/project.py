@@ -54,7 +54,7 @@ class Projected:
 
 
 def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEFAULTS) -> Projected:
-    """Gaussians as the camera sees them; differentiable in the gaussians and in the camera's arrays.
+    """Gaussians as the camera sees them; differentiable once, in reverse mode, in the gaussians and in the camera's arrays.
 
     Args:
         gaussians: n gaussians in world space, NumPy or JAX.

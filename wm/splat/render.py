@@ -25,6 +25,8 @@ def render(
 ) -> Render:
     """What a camera sees of gaussians; differentiable in the gaussians, the camera's arrays and the background.
 
+    Its derivative is written out: of first order, in reverse mode (`jax.grad`, `jax.vjp`); a second one or `jax.jvp` raises.
+
     It may be called inside jit, grad and vmap, over cameras too. The callback by which a CPU plans there works on one device:
     inside shard_map over several, one view at a time under `settings.planner` "traced", or plan between two sharded passes:
 
@@ -37,7 +39,8 @@ def render(
     caller's gains a fifth from `compiler_options=wm.splat.WIDE`; called on its own, this function takes them by itself.
 
     Args:
-        gaussians: n gaussians in world space; n may be 0. One that is not finite is left out, unless `checked`.
+        gaussians: n gaussians in world space; n may be 0. Unless `checked`, one that is not finite is left out, but for an
+            opacity logit of +inf, which is that of opacity 1.
         camera: where they are seen from; any image size from 1 x 1.
         background: colour behind everything, one or one a pixel; None is black.
         settings: the constants of the rasterizer, static under jit.

@@ -165,8 +165,14 @@ class RoomFit:
         return dataclasses.replace(kept, stopped=f"{where}: {reason}; kept the state of step {kept.step}")
 
     def _best(self, state: RoomState) -> RoomState:
-        train = jax.device_put(start_state(pad_gaussians(state.watched.best, self.rows)), self.devices[0])
-        return dataclasses.replace(state, train=train, step=state.watched.best_step)
+        """The best state, without anything of the steps after it. No fit goes on from here: tone and residual are not kept."""
+        step = state.watched.best_step
+        return RoomState(
+            train=jax.device_put(start_state(pad_gaussians(state.watched.best, self.rows)), self.devices[0]),
+            step=step,
+            history=tuple(point for point in state.history if point.step <= step),
+            watch=state.watch,
+        )
 
     def _measured(self, state: RoomState) -> RoomState:
         """The state with one more point of the curve, if one is due."""

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from wm.splat.checks import check_gaussians
 from wm.splat.curve import MEANS, FitPoint
 from wm.splat.padding import pad_rows, unpad_rows
 from wm.splat.refine import Residual
@@ -35,11 +36,12 @@ class RoomState:
         return self.watch
 
 
-def initial_state(gaussians: Gaussians) -> RoomState:
+def initial_state(gaussians: Gaussians, name: str = "gaussians") -> RoomState:
     """The state of a room before its first step.
 
-    Raises: ValueError saying how many gaussians are not finite.
+    Raises: TypeError or ValueError naming a leaf (of `name`) that is no array of its shape, or how many are not finite.
     """
+    check_gaussians(gaussians, name)
     n = len(gaussians.opacity_logits)
     gaussians = pad_rows(gaussians, n)
     leaves = [np.asarray(leaf).reshape(n, math.prod(np.shape(leaf)[1:])) for leaf in vars(gaussians).values()]

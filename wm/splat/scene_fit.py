@@ -8,7 +8,6 @@ gaussians are padded to a few common sizes.
 """
 
 import dataclasses
-import functools
 import queue
 import time
 from collections.abc import Callable, Sequence
@@ -19,9 +18,11 @@ import jax
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.batch import Device
 from wm.splat.checkpoint import from_arrays, to_arrays
+from wm.splat.checks import check_fit, check_raster
 from wm.splat.curve import FitPoint
-from wm.splat.fit import DEFAULT_RASTER, Progress, seed_of
+from wm.splat.fit import Progress, seed_of
 from wm.splat.padding import Capacity, pad_gaussians
+from wm.splat.project import DEFAULTS
 from wm.splat.room_fit import Interrupted
 from wm.splat.room_state import RoomState, initial_state
 from wm.splat.room_task import Here, Place, RoomTask
@@ -52,7 +53,7 @@ def fit_scene(
     views: RoomViews,
     *,
     settings: FitSettings,
-    raster: RasterSettings = DEFAULT_RASTER,
+    raster: RasterSettings = DEFAULTS,
     key: jax.Array,
     heldout: RoomViews = lambda room: (),
     load: Load = lambda round_, room: None,
@@ -84,12 +85,14 @@ def fit_scene(
             the CPU here, if no `jax.config.update` of the caller decides them: workers have its environment only.
 
     Returns: the gaussians, the curves and what stopped early.
-    Raises: the error of a room (of `views`, say) once all rooms ended their round; a RuntimeError that names the room if the
-        process that fitted it has died, WorkerClosed if it was closed. A KeyboardInterrupt as soon as every room
-        under way has ended its step; all that was reached is stored.
+    Raises: TypeError or ValueError naming what is wrong with an argument, as `fit`. The error of a room (of `views`, say) once
+        all rooms ended their round; a RuntimeError that names the room if the process that fitted it has died, WorkerClosed if it
+        was closed. A KeyboardInterrupt as soon as every room under way has ended its step; all that was reached is stored.
     """
+    check_fit(settings)
+    check_raster(raster)
     scene = _Scene(
-        states=[initial_state(start) for start in gaussians],
+        states=[initial_state(start, f"gaussians[{room}]") for room, start in enumerate(gaussians)],
         views=views,
         heldout=heldout,
         settings=settings,
@@ -176,20 +179,25 @@ class _Scene:
         task = self._task(room, state, last)
         try:
             if task is None:
-                self.report.skip(last - first)
+                self.report.skip(last - max(first, state.step))
                 state = dataclasses.replace(state, step=last)
             else:
-                report = functools.partial(self._report, room)
+                done = state.step
+
+                def report(step: int, info: dict) -> None:
+                    nonlocal done
+                    done = step
+                    self.report.step(info | {"room": room})
+
                 state = place.fit(task, self.capacity, report, checkpoints.keeper(round_, room))
+                if done < last:  # it stopped, and perhaps went back
+                    self.report.skip(last - done)
         except Interrupted as interrupted:
             if interrupted.resumable:
                 checkpoints.store(round_, room, to_arrays(interrupted.state))
             raise interrupted.__cause__ or interrupted from None
         checkpoints.store(round_, room, to_arrays(state))
         return state
-
-    def _report(self, room: int, done: int, info: dict) -> None:
-        self.report.step(info | {"room": room})
 
     def _task(self, room: int, state: RoomState, last: int) -> RoomTask | None:
         """What the fit of a room reads; None: there is nothing to fit."""

@@ -2,12 +2,12 @@
 
 import threading
 from collections.abc import Sequence
-from typing import Any
 
 import jax
 import numpy as np
 
 from wm.schema import RasterSettings
+from wm.splat.batch import Device, default_device
 from wm.splat.frozen import join_columns, pad_columns, visible_columns
 from wm.splat.padding import Capacity, host, pad_gaussians, plan_with
 from wm.splat.step import project_view, rasterize_view
@@ -24,8 +24,13 @@ class SceneRenderer:
     """
 
     def __init__(
-        self, rooms: Sequence[Gaussians], raster: RasterSettings, *, capacity: Capacity | None = None, device: Any = None
-    ):
+        self,
+        rooms: Sequence[Gaussians],
+        raster: RasterSettings,
+        *,
+        capacity: Capacity | None = None,
+        device: Device | None = None,
+    ) -> None:
         """What renders, ready.
 
         Args:
@@ -35,7 +40,7 @@ class SceneRenderer:
           device: the jax.Device that renders, JAX's default if None.
         """
         largest = max((len(room.opacity_logits) for room in rooms), default=0)
-        self._device = device or jax.devices()[0]
+        self._device = device or default_device()
         self._rooms = [jax.device_put(pad_gaussians(room, largest), self._device) if largest else None for room in rooms]
         self._raster = raster
         self._capacity = capacity or Capacity()

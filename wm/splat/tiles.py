@@ -10,7 +10,7 @@ from coordinates to rows, which is a counting sort. Order in a tile: by depth, e
 
 import dataclasses
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import numpy as np
@@ -19,7 +19,6 @@ from scipy.sparse import coo_array
 from wm.schema import RasterSettings
 from wm.splat._spans import blocks, chord, chord_terms, slack, tile_span
 from wm.splat.project import DEFAULTS, Projected
-from wm.types import record
 
 GROWTH, BASE = 1.5, 4096
 """Capacities are BASE * GROWTH^k: padded sizes that differ give few distinct shapes, hence few compilations."""
@@ -28,9 +27,23 @@ STRIP = 1 << 14
 """Rows of tiles worked on at a time: temporaries that stay in the cache, and below the size that the allocator maps anew."""
 
 
-@record
+class Planned(NamedTuple):
+    """What a plan is of."""
+
+    width: int  # of the image, pixels
+    height: int
+    tile: int  # edge of a tile, pixels
+    gaussians: int
+
+    @property
+    def tiles(self) -> int:
+        return -(-self.width // self.tile) * -(-self.height // self.tile)
+
+
+@jax.tree_util.register_dataclass
+@dataclasses.dataclass(frozen=True, eq=False)
 class TilePlan:
-    """The entries of every tile; plain arrays, so that a plan is an argument of a jitted function.
+    """The entries of every tile; plain arrays, so that a plan is an argument of a jitted function; what it is of is static.
 
     Tiles are taken in blocks; a lane is the place of one tile in its block.
     """
@@ -40,6 +53,7 @@ class TilePlan:
     start: Any  # [blocks, lanes] int32 its first entry
     count: Any  # [blocks, lanes] int32 how many entries it has
     slot: Any  # [tiles] int32 the lane (blocks and lanes flattened) that holds each tile
+    of: Planned = dataclasses.field(metadata={"static": True})
 
 
 def plan_tiles(
@@ -75,7 +89,8 @@ def plan_tiles(
     lists = matrix.tocsr()
     padded = np.full(padded_capacity(len(ids), capacity), len(depth), np.int32)
     padded[: len(ids)] = lists.indices
-    return TilePlan(ids=padded, **_blocks(np.diff(lists.indptr), settings.block))
+    planned = Planned(width, height, settings.tile, len(depth))
+    return TilePlan(ids=padded, of=planned, **_blocks(np.diff(lists.indptr), settings.block))
 
 
 def plan_views(projected: Projected, width: int, height: int, settings: RasterSettings = DEFAULTS) -> TilePlan:

@@ -14,7 +14,7 @@ import jax.numpy as jnp
 from wm.schema import RasterSettings
 from wm.splat._spans import blocks, chord, chord_terms, slack, tile_span
 from wm.splat.project import DEFAULTS, Projected
-from wm.splat.tiles import TilePlan, padded_capacity
+from wm.splat.tiles import Planned, TilePlan, padded_capacity
 from wm.types import record
 
 COUNTABLE = 2.0**30
@@ -45,13 +45,14 @@ def plan_tiles_traced(
         refuse it, as `render` does.
     """
     projected = jax.tree.map(lambda x: jax.lax.stop_gradient(jnp.asarray(x, jnp.float32)), projected)
-    tiles = -(-width // settings.tile) * -(-height // settings.tile)
+    n = projected.opacity.shape[0]
+    planned = Planned(width, height, settings.tile, n)
     ids, in_tile, needed = _entries(projected, width, height, settings, capacity)
     in_tile, ids = jax.lax.sort((in_tile, ids), num_keys=1, is_stable=True)
     # unrolled: one kernel on a GPU, where the loop of a binary search is fifty launches
-    ends = jnp.searchsorted(in_tile, jnp.arange(tiles + 1, dtype=jnp.int32), method="scan_unrolled").astype(jnp.int32)
-    ids = jnp.where(in_tile < tiles, ids, projected.opacity.shape[0])
-    return TracedPlan(plan=TilePlan(ids=ids, **_blocks(jnp.diff(ends), settings.block)), needed=needed)
+    ends = jnp.searchsorted(in_tile, jnp.arange(planned.tiles + 1, dtype=jnp.int32), method="scan_unrolled").astype(jnp.int32)
+    ids = jnp.where(in_tile < planned.tiles, ids, n)
+    return TracedPlan(plan=TilePlan(ids=ids, of=planned, **_blocks(jnp.diff(ends), settings.block)), needed=needed)
 
 
 def plan_tiles_on_device(
