@@ -73,10 +73,8 @@ def test_placed_rooms_obey_the_laws_and_stay_as_they_are(room, places, seed):
 
     order = np.random.default_rng(seed).permutation(len(things)).tolist()
     other = place_objects([things[k] for k in order], site)
-    assert sorted(order[k] for k in other.source) == list(placement.source)
-    by_source = {order[k]: thing for k, thing in zip(other.source, other.objects)}
-    for k, thing in zip(placement.source, objects):
-        assert thing.vertices.tobytes() == by_source[k].vertices.tobytes()
+    # by content: of two things that are the same to the bit, either may be the one for which there is room
+    assert sorted(thing.vertices.tobytes() for thing in other.objects) == sorted(thing.vertices.tobytes() for thing in objects)
 
 
 def square_room(*openings):

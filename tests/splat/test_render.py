@@ -293,7 +293,7 @@ def test_a_plan_is_data():
 def test_a_view_too_full_for_a_traced_plan_says_so(monkeypatch):
     monkeypatch.setattr(planner, "TRACED_PER_GAUSSIAN", 0)
     monkeypatch.setattr(planner, "TRACED_PER_TILE", 1)
-    with pytest.raises(Exception, match="outside jit"):
+    with pytest.raises(Exception, match="plan it outside"):
         jax.block_until_ready(jax.jit(lambda g: render(g, camera()).alpha)(to_float32(cloud(degree=3))))
 
 
