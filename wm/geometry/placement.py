@@ -95,17 +95,16 @@ def _priority(thing: SceneObject) -> tuple:
 
 
 def _placed(thing: SceneObject, site: Site, taken: Occupancy, done: dict[int, SceneObject]) -> SceneObject | None:
+    if thing.support == "object":
+        box = stacked(box_of(thing), [done[k] for k in sorted(done)], taken, lift=LIFT)
+        if box is not None:
+            return moved_to(thing, box)
+        thing = dataclasses.replace(thing, support="floor")
     if thing.support == "wall":
         box = _on_wall(box_of(thing), site, taken, covers=covers_windows(thing.label))
     elif thing.support == "ceiling":
         box = box_of(thing)
         box = _shifted(dataclasses.replace(box, z=site.ceiling - LIFT - box.height), site, taken)
-    elif thing.support == "object":
-        things = [done[k] for k in sorted(done)]
-        box = stacked(box_of(thing), things, taken, lift=LIFT)
-        if box is None:
-            thing = dataclasses.replace(thing, support="floor")
-            box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
     else:
         thing = flattened(thing, PRESSED) if thing.support == "flat" else thing
         box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)

@@ -141,7 +141,7 @@ def main() -> None:
     runs = []
     for folder in folders:
         try:
-            runs += read_runs([folder])
+            runs.append(_read(folder))
         except InputError as error:
             print(f"wm: left out: {error}", file=sys.stderr)
     if not runs:
