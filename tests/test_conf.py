@@ -2,15 +2,17 @@
 
 import dataclasses
 import functools
+import math
 
 import pytest
 
 from tests.synth.recording import recorded
 from wm.run import load_config, options
 from wm.schema import BACKEND_KEYS, RunConfig
+from wm.splat.checks import check_fit, check_raster
 from wm.synth.backends import CHOICES
 from wm.synth.image.violations import KINDS
-from wm.validate import RANGES, ConfigError, validate_config
+from wm.validate import BELOW, RANGES, ConfigError, validate_config
 
 SCENES = {"gothic": 6, "scandinavian": 4, "beach_house": None, "roman_estate": None, "clockwork_garden": None}
 VARIANTS = {
@@ -167,6 +169,16 @@ def test_ranges_are_of_keys_that_exist_and_cover_every_number():
         key for key, value in leaves(RunConfig()).items() if isinstance(value, int | float) and not isinstance(value, bool)
     }
     assert {*RANGES, "workers"} == numbers  # which may be null too, and is checked apart
+
+
+@pytest.mark.parametrize(("group", "check"), [("raster", check_raster), ("fit", check_fit)])
+def test_a_configuration_holds_nothing_that_the_engine_refuses_when_the_run_comes_to_it(group, check):
+    settings = getattr(RunConfig(), group)
+    for key, (low, high) in RANGES.items():
+        record, _, name = key.partition(".")
+        if record == group and not name.startswith("alpha_"):  # which are held against each other
+            for value in (low, math.nextafter(high, low) if key in BELOW else high):
+                check(dataclasses.replace(settings, **{name: type(getattr(settings, name))(value)}))
 
 
 def test_all_faults_are_named_at_once():

@@ -67,7 +67,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "fit.lr_scales": (0, 10),
     "fit.lr_opacities": (0, 10),
     "fit.lr_sh": (0, 10),
-    "fit.lr_final": (0, 1),
+    "fit.lr_final": (1e-9, 1),
     "fit.lr_exposure": (0, 10),
     "fit.refine_every": (0, 10_000_000),
     "fit.refine_share": (0, 0.5),
@@ -105,8 +105,8 @@ RANGES: Mapping[str, tuple[float, float]] = {
 }
 
 
-BELOW = frozenset({"texture.min_facing"})
-"""Keys whose highest value is not reached: one divides by what is left to 1."""
+BELOW = frozenset({"texture.min_facing", "raster.transmittance_min"})
+"""Keys whose highest value is not reached: one divides by what is left to 1; at the other nothing would be rendered."""
 
 
 class ConfigError(InputError):
