@@ -7,11 +7,11 @@ import math
 import pytest
 
 from tests.synth.recording import recorded
+from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
 from wm.schema import BACKEND_KEYS, RunConfig
-from wm.splat.checks import check_fit, check_raster
+from wm.splat.rasterizer.checks import check_fit, check_raster
 from wm.synth.backends import CHOICES
-from wm.synth.image.violations import KINDS
 from wm.validate import BELOW, RANGES, ConfigError, validate_config
 
 SCENES = {"gothic": 6, "scandinavian": 4, "beach_house": None, "roman_estate": None, "clockwork_garden": None}

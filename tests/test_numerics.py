@@ -50,7 +50,7 @@ def test_guards_do_not_hide_nan():
 
 
 def unit(x):
-    """The direction of each row: how the guards are used together (wm/splat/project.py)."""
+    """The direction of each row: how the guards are used together (wm/splat/rasterizer/projection.py)."""
     return safe_div(x, safe_sqrt(jnp.sum(x * x, axis=-1, keepdims=True)))
 
 

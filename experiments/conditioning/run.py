@@ -14,14 +14,14 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from wm.geometry import assemble_scene, build_ray_scene, cast, object_boxes, place_cameras
+from wm.offline.image.painter import ProceduralImages
+from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
 from wm.schema import ConditionConfig, ImageConfig, RunConfig
 from wm.synth.attempt import PaintedView
 from wm.synth.backends import Condition, ImageRequest, SceneContext, make_backend
 from wm.synth.furnished import furnished_context
-from wm.synth.image.procedural import ProceduralImages
-from wm.synth.image.violations import KINDS
-from wm.synth.paint import PaintSettings, Scaffold, paint_scene
+from wm.synth.painting import PaintSettings, Scaffold, paint_scene
 from wm.types import OUTSIDE, View
 
 HERE = pathlib.Path(__file__).parent
@@ -31,7 +31,7 @@ CAPTION = 22  # pixels
 
 
 def painted(context: SceneContext, views: list[View], image: ProceduralImages, config: RunConfig) -> dict[str, PaintedView]:
-    """A room by the loop of wm.synth.paint in the variant of a configuration."""
+    """A room by the loop of wm.synth.painting in the variant of a configuration."""
     objects = config.condition.objects
     whole = Scaffold(build_ray_scene(assemble_scene(context.structure, context.objects)), context.objects)
     shown = context.objects if objects == "textured" else object_boxes(context.objects) if objects == "boxes" else ()

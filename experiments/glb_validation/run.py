@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2]))  # the plan generator lives with the tests
+from tests.geometry.mesh.test_glb import quad
+from tests.geometry.mesh.test_scene_mesh import wedge
 from tests.geometry.plans import random_plan
-from tests.geometry.test_glb import quad
-from tests.geometry.test_mesh import wedge
 from wm.geometry import GlbNode, atlas_nodes, build_atlas, build_structure, object_nodes, save_glb
 
 HERE = Path(__file__).parent

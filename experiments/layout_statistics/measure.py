@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 import shapely
 
+from wm.offline.language.programme import kind_of
 from wm.run import load_config, options
 from wm.schema import LanguageConfig
 from wm.synth.backends import make_backend
-from wm.synth.language.programme import kind_of
-from wm.synth.language.propose import ProposalError, propose_plan
+from wm.synth.proposing import ProposalError, propose_plan
 
 HERE = Path(__file__).parent
 KINDS = ("living room", "kitchen", "bathroom", "bedroom", "dining room", "study", "library", "bedroom", "pantry", "music room")

@@ -5,10 +5,10 @@ import dataclasses
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from wm.geometry.upright import levelled, turn_between
-from wm.geometry.upright_box import UprightBox, box_iou, box_of
+from wm.geometry.placement.upright import levelled, turn_between
+from wm.geometry.placement.upright_box import UprightBox, box_iou, box_of
 from wm.synth.backends import SceneContext
-from wm.synth.objects.lifted import LiftedRoom
+from wm.synth.lifting.lifted import LiftedRoom
 from wm.types import SceneObject
 
 FOUND = 0.25

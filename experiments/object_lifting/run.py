@@ -16,16 +16,16 @@ from shaking import shaken
 from sketch import sketch_of
 
 from wm.geometry import build_structure, navigability
-from wm.geometry.placement import place_objects
-from wm.geometry.placement_laws import violations
-from wm.geometry.site import room_site
-from wm.geometry.views import bootstrap_cameras
+from wm.geometry.cameras.views import bootstrap_cameras
+from wm.geometry.placement.laws import violations
+from wm.geometry.placement.placing import place_objects
+from wm.geometry.plan.site import room_site
+from wm.offline.objects.generator import ProceduralObjects
 from wm.run import load_config, options
 from wm.schema import CameraSettings, ObjectsConfig
 from wm.synth.backends import SceneContext, make_backend
-from wm.synth.language.propose import propose_plan
-from wm.synth.objects.lifted import LiftedObjects, LiftedRoom, lift_room
-from wm.synth.objects.procedural import ProceduralObjects
+from wm.synth.lifting.lifted import LiftedObjects, LiftedRoom, lift_room
+from wm.synth.proposing import propose_plan
 from wm.types import SceneObject
 
 HERE = Path(__file__).parent

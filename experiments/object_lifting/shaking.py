@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from wm.geometry.upright import transformed
+from wm.geometry.placement.upright import transformed
 from wm.types import SceneObject
 
 

@@ -8,8 +8,8 @@ import dataclasses
 
 import numpy as np
 
-from wm.geometry.mesh import assemble_scene
-from wm.geometry.raycast import RayScene, build_ray_scene, cast
+from wm.geometry.mesh.scene_mesh import assemble_scene
+from wm.geometry.rays.raycast import RayScene, build_ray_scene, cast
 from wm.synth.backends import ImageRequest, ImageResult, SceneContext
 from wm.synth.condition import make_condition
 from wm.types import OUTSIDE

@@ -17,18 +17,18 @@ from pathlib import Path
 import numpy as np
 from run import context_of
 
-from wm.geometry.camera import camera_center, camera_rays, project_points
-from wm.geometry.mesh import assemble_scene
-from wm.geometry.object_colors import object_colors
-from wm.geometry.raycast import build_ray_scene, cast
-from wm.geometry.views import place_cameras
+from wm.color import to_srgb
+from wm.geometry.cameras.views import place_cameras
+from wm.geometry.mesh.object_colors import object_colors
+from wm.geometry.mesh.scene_mesh import assemble_scene
+from wm.geometry.rays.pinhole import camera_center, camera_rays, project_points
+from wm.geometry.rays.raycast import build_ray_scene, cast
+from wm.offline.style.theme import style_of
+from wm.offline.world.pieces import build_pieces, look
 from wm.run import options
 from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
 from wm.synth.backends import SceneContext
-from wm.synth.objects.lifted import LiftedObjects, LiftedRoom
-from wm.synth.procedural.color import to_srgb
-from wm.synth.procedural.pieces import build_pieces, look
-from wm.synth.procedural.style import style_of
+from wm.synth.lifting.lifted import LiftedObjects, LiftedRoom
 from wm.types import Camera, GBuffer, SceneObject
 
 HERE = Path(__file__).parent

@@ -14,10 +14,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wm.geometry import _embree, raycast
-from wm.geometry._reference import cast_reference
-from wm.geometry.camera import camera_center, camera_rays, make_camera, scale_camera
-from wm.geometry.raycast import build_ray_scene, cast, cast_rays, occluded
+from wm.geometry.rays import _embree, raycast
+from wm.geometry.rays._reference import cast_reference
+from wm.geometry.rays.pinhole import camera_center, camera_rays, make_camera, scale_camera
+from wm.geometry.rays.raycast import build_ray_scene, cast, cast_rays, occluded
 from wm.types import Mesh
 
 REPEATS = 15

@@ -16,7 +16,7 @@ import numpy as np
 
 from wm.schema import RasterSettings
 from wm.splat import WIDE, Projected, TilePlan, project, rasterize
-from wm.splat.planner import plan_outside_jit
+from wm.splat.rasterizer.planner import plan_outside_jit
 from wm.types import Camera, Gaussians, Render
 
 ROOM = np.array([6.0, 4.0, 2.7])

@@ -22,7 +22,7 @@ from tests.splat.rooms import SIZE, views_of  # noqa: E402
 from wm.host import prepare_process  # noqa: E402
 from wm.schema import FitSettings  # noqa: E402
 from wm.splat import TrainingView, fit_scene, initial_gaussians  # noqa: E402
-from wm.splat.padding import Capacity  # noqa: E402
+from wm.splat.optimization.padding import Capacity  # noqa: E402
 from wm.types import Gaussians  # noqa: E402
 
 COUNTS = (4, 8, 16, 32)

@@ -18,8 +18,8 @@ from tests.splat.rooms import views_of
 from wm.host import cores, prepare_process
 from wm.schema import FitSettings, RasterSettings
 from wm.splat import TrainingView, fit_scene, initial_gaussians, plan_tiles, room_workers
-from wm.splat.padding import Capacity
-from wm.splat.step import project_view
+from wm.splat.optimization.padding import Capacity
+from wm.splat.optimization.step import project_view
 from wm.types import Gaussians
 
 ROOMS = 2

@@ -3,7 +3,7 @@
     python experiments/verification/run.py --preset draft --every 2
 
 Images are judged by their depth alone, so none is shaded: a violation is drawn as the offline image model draws it
-(wm/synth/image/violations.py), cast, estimated by the offline depth model and verified. Two parts:
+(wm/offline/image/violations.py), cast, estimated by the offline depth model and verified. Two parts:
   kinds     every kind of violation once a view, and two good images a view
   profiles  the painting loop of every profile in conf/image: attempts until one passes, violations at the profile's shares
 """
@@ -17,15 +17,15 @@ from collections.abc import Iterator
 import numpy as np
 
 from wm.geometry import assemble_scene, build_ray_scene, cast, place_cameras
-from wm.geometry.footprint import portals
+from wm.geometry.plan.footprint import portals
+from wm.offline.image.violations import KINDS, PLAIN, Violation, draw_violation, violation
+from wm.offline.world.edit import edited_mesh
 from wm.run import load_config, options
 from wm.schema import RunConfig
 from wm.synth.attempt import attempt_seed
 from wm.synth.backends import ImageResult, SceneContext, make_backend
 from wm.synth.canny import depth_edges
 from wm.synth.furnished import furnished_context
-from wm.synth.image.violations import KINDS, PLAIN, Violation, draw_violation, violation
-from wm.synth.procedural.edit import edited_mesh
 from wm.synth.verify import verify
 from wm.types import OUTSIDE, GBuffer, Mesh, View
 

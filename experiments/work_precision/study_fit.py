@@ -13,7 +13,7 @@ import bench
 import jax
 import numpy as np
 
-from wm.geometry.raycast import cast
+from wm.geometry.rays.raycast import cast
 from wm.schema import FitSettings, RasterSettings
 from wm.splat import fit, initial_gaussians, psnr, render
 from wm.stages.evaluation import Seen, _alignment

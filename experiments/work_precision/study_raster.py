@@ -15,7 +15,7 @@ import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat import WIDE, plan_tiles, project, rasterize
-from wm.splat._reference import render_reference
+from wm.splat.rasterizer._reference import render_reference
 
 EXACT = RasterSettings(alpha_min=1e-6, transmittance_min=0.0)
 DEFAULT = RasterSettings()

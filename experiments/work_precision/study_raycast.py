@@ -15,9 +15,9 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from wm.geometry._reference import cast_rays_reference
-from wm.geometry.camera import camera_center, camera_rays, make_camera
-from wm.geometry.raycast import RayHits
+from wm.geometry.rays._reference import cast_rays_reference
+from wm.geometry.rays.pinhole import camera_center, camera_rays, make_camera
+from wm.geometry.rays.raycast import RayHits
 from wm.types import Mesh
 
 PANELS = [("mrays_per_s", "depth_error_m", "log"), ("mrays_per_s", "other_face", "linear")]

@@ -8,8 +8,8 @@ import bench
 import numpy as np
 
 from wm.geometry import build_atlas, cast
-from wm.geometry.sampling import pixel_charts, sample_atlas
-from wm.geometry.texture import accumulate_in_place
+from wm.geometry.texture.accumulation import accumulate_in_place
+from wm.geometry.texture.sampling import pixel_charts, sample_atlas
 from wm.schema import TextureSettings
 from wm.splat import psnr
 

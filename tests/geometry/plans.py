@@ -6,8 +6,8 @@ import itertools
 import numpy as np
 import shapely
 
-from wm.geometry.plan import FloorPlan, Opening, Room, parse_plan, plan_to_json
-from wm.geometry.walls import plan_walls
+from wm.geometry.plan.loading import FloorPlan, Opening, Room, parse_plan, plan_to_json
+from wm.geometry.plan.walls import plan_walls
 
 
 def rectangle(name: str, x0: float, y0: float, x1: float, y1: float, *openings: Opening, height: float = 2.8) -> Room:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from wm.geometry.camera import camera_center, camera_rays, make_camera
-from wm.splat.training import TrainingView
+from wm.geometry.rays.pinhole import camera_center, camera_rays, make_camera
+from wm.splat.optimization.training import TrainingView
 
 SIZE = (4.0, 3.0, 2.5)
 """Every room of the row, metres; neighbours share a wall that is not there (an opening as large as the room)."""

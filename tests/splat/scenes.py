@@ -9,7 +9,7 @@ import numpy as np
 
 from wm.schema import RasterSettings
 from wm.splat import project, render
-from wm.splat._reference import distance_to_thresholds, render_reference
+from wm.splat.rasterizer._reference import distance_to_thresholds, render_reference
 from wm.types import Camera, Gaussians, Render
 
 SMOOTH = RasterSettings(alpha_min=1e-7, transmittance_min=0.0)

@@ -12,9 +12,9 @@ import numpy as np
 
 from tests.splat.scenes import camera, cloud, gradients, images, undecided
 from wm.schema import RasterSettings
-from wm.splat.losses import depth_loss
-from wm.splat.normal_loss import normal_loss
-from wm.splat.ssim import C1, C2, RADIUS, TAPS, ssim
+from wm.splat.optimization.losses import depth_loss
+from wm.splat.optimization.normal_loss import normal_loss
+from wm.splat.similarity import C1, C2, RADIUS, TAPS, ssim
 from wm.types import Camera, Gaussians
 
 DEFAULT, SMALL = RasterSettings(), RasterSettings(chunk=1)

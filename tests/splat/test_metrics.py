@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from wm.geometry.camera import camera_center, camera_rays, make_camera
+from wm.geometry.rays.pinhole import camera_center, camera_rays, make_camera
 from wm.splat.metrics import depth_error, normal_error, normals_from_depth, one_surface, psnr
 from wm.splat.reprojection import every, mutual_pixels, overlap, reprojection_error, shared_pixels
 

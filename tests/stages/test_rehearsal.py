@@ -11,9 +11,9 @@ from tests.test_pipeline import SMALL
 from wm.artifacts import open_run_folder
 from wm.meter import StageMeter
 from wm.run import load_config
-from wm.splat.padding import Capacity
-from wm.splat.scene_fit import fit_scene
-from wm.splat.step import view_gradient
+from wm.splat.optimization.padding import Capacity
+from wm.splat.optimization.step import view_gradient
+from wm.splat.scene.scene_fit import fit_scene
 from wm.stages.fitters import Fitters, fitters
 from wm.stages.job import Job
 from wm.stages.rehearsal import _blank_views, _cloud, contenders, rehearse

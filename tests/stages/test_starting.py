@@ -12,7 +12,7 @@ from wm.geometry import cast, unproject_depth
 from wm.meter import StageMeter
 from wm.run import load_config
 from wm.schema import FitSettings
-from wm.splat.cloud import SH_C0, initial_gaussians
+from wm.splat.optimization.cloud import SH_C0, initial_gaussians
 from wm.stages.job import Job
 from wm.stages.reconstruction import training_view
 from wm.stages.scene import build_scene

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.geometry.camera import make_camera
+from wm.geometry.rays.pinhole import make_camera
 from wm.schema import DepthConfig
 from wm.synth.backends import make_backend
 from wm.synth.checked import SLACK, checked_estimate, checked_image

@@ -8,13 +8,13 @@ import pytest
 
 from tests.geometry.plans import two_rooms
 from tests.geometry.things import box
-from wm.geometry.atlas import build_atlas
-from wm.geometry.camera import make_camera
-from wm.geometry.mesh import assemble_scene, object_boxes
-from wm.geometry.raycast import cast
-from wm.geometry.sampling import sample_atlas
-from wm.geometry.structure import build_structure
-from wm.geometry.texture import accumulate
+from wm.geometry.mesh.scene_mesh import assemble_scene, object_boxes
+from wm.geometry.mesh.structure import build_structure
+from wm.geometry.rays.pinhole import make_camera
+from wm.geometry.rays.raycast import cast
+from wm.geometry.texture.accumulation import accumulate
+from wm.geometry.texture.atlas import build_atlas
+from wm.geometry.texture.sampling import sample_atlas
 from wm.schema import ConditionConfig
 from wm.synth.condition import depth_grey, make_condition
 from wm.types import Texture

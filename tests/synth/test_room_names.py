@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.synth.language.programme import CIRCULATION, PRIVATE, SERVICE, WET, kind_of
-from wm.synth.procedural.programmes import PROGRAMME
-from wm.synth.procedural.room_type import ROOM_TYPES, room_type
+from wm.offline.arrangement.programmes import PROGRAMME
+from wm.offline.arrangement.room_type import ROOM_TYPES, room_type
+from wm.offline.language.programme import CIRCULATION, PRIVATE, SERVICE, WET, kind_of
 from wm.synth.room_names import PHRASES, SORTS, WORDS, room_sort
 
 KNOWN = sorted({word for words in WORDS.values() for word in words.split()} | set(PHRASES))

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.geometry.plans import two_rooms
-from wm.geometry.camera import make_camera
-from wm.geometry.site import make_site, room_site
+from wm.geometry.plan.site import make_site, room_site
+from wm.geometry.rays.pinhole import make_camera
 from wm.synth.sights import sights
 
 ANGLE = st.floats(-math.pi, math.pi)

@@ -25,24 +25,24 @@
     ply.py        load_ply, save_ply
 """
 
-from wm.splat._wide import WIDE
-from wm.splat.cloud import initial_gaussians
-from wm.splat.composite import rasterize
-from wm.splat.curve import FitPoint
-from wm.splat.fit import Fit, FitError, fit
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
-from wm.splat.padding import Capacity
+from wm.splat.optimization.cloud import initial_gaussians
+from wm.splat.optimization.curve import FitPoint
+from wm.splat.optimization.fitting import Fit, FitError, fit
+from wm.splat.optimization.padding import Capacity
+from wm.splat.optimization.training import TrainingView
 from wm.splat.ply import PlyError, load_ply, save_ply
-from wm.splat.project import Projected, project
-from wm.splat.render import render
+from wm.splat.rasterizer.compositing import rasterize
+from wm.splat.rasterizer.projection import Projected, project
+from wm.splat.rasterizer.rendering import render
+from wm.splat.rasterizer.tiles import TilePlan, plan_tiles, plan_views
+from wm.splat.rasterizer.tiles_traced import TracedPlan, plan_tiles_on_device, plan_tiles_traced
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
-from wm.splat.room_worker import RoomWorker, room_workers
-from wm.splat.scene_fit import SceneFit, fit_scene
-from wm.splat.scene_render import SceneRenderer
-from wm.splat.ssim import ssim, ssim_map
-from wm.splat.tiles import TilePlan, plan_tiles, plan_views
-from wm.splat.tiles_traced import TracedPlan, plan_tiles_on_device, plan_tiles_traced
-from wm.splat.training import TrainingView
+from wm.splat.scene.room_worker import RoomWorker, room_workers
+from wm.splat.scene.scene_fit import SceneFit, fit_scene
+from wm.splat.scene.scene_render import SceneRenderer
+from wm.splat.similarity import ssim, ssim_map
+from wm.splat.xla.vector_width import WIDE
 
 __all__ = [
     "WIDE",

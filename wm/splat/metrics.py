@@ -12,7 +12,7 @@ import dataclasses
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from wm.geometry.camera import camera_rays, unproject_depth
+from wm.geometry.rays.pinhole import camera_rays, unproject_depth
 from wm.types import Camera
 
 

@@ -12,7 +12,7 @@ import dataclasses
 import numpy as np
 from jaxtyping import Bool, Float
 
-from wm.geometry.camera import project_points, unproject_depth
+from wm.geometry.rays.pinhole import project_points, unproject_depth
 from wm.types import Camera
 
 TOLERANCE = 0.02

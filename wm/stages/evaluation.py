@@ -11,11 +11,11 @@ import numpy as np
 from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, coverage, navigability, visible_rooms
-from wm.geometry.camera import scale_camera
+from wm.geometry.rays.pinhole import scale_camera
 from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
 from wm.splat.reprojection import every, overlap, reprojection_error, shared_pixels
-from wm.splat.scene_render import SceneRenderer
-from wm.splat.ssim import ssim
+from wm.splat.scene.scene_render import SceneRenderer
+from wm.splat.similarity import ssim
 from wm.stages.heldout import HeldOut
 from wm.stages.job import Job
 from wm.stages.ordered import in_order

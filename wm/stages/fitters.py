@@ -9,8 +9,8 @@ import jax
 
 from wm.host import cores
 from wm.schema import RunConfig
-from wm.splat.padding import Capacity
-from wm.splat.room_worker import RoomWorker, room_workers
+from wm.splat.optimization.padding import Capacity
+from wm.splat.scene.room_worker import RoomWorker, room_workers
 from wm.stages.scene import Scene
 
 

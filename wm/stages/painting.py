@@ -10,13 +10,13 @@ import numpy as np
 from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, object_boxes
-from wm.geometry.glb import object_nodes, save_glb
-from wm.geometry.site import room_site
+from wm.geometry.mesh.glb import object_nodes, save_glb
+from wm.geometry.plan.site import room_site
 from wm.schema import RunConfig
 from wm.stages.job import Job
 from wm.stages.scene import Scene
 from wm.synth.backends import DepthBackend, ImageBackend
-from wm.synth.paint import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
+from wm.synth.painting import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
 from wm.synth.prompts import image_prompt
 from wm.synth.sights import sights
 from wm.types import SceneObject, View

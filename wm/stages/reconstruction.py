@@ -12,10 +12,10 @@ from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, visible_rooms
 from wm.host import cores
+from wm.splat.optimization.training import TrainingView
 from wm.splat.ply import save_ply
-from wm.splat.scene_fit import fit_scene
-from wm.splat.scene_render import SceneRenderer
-from wm.splat.training import TrainingView
+from wm.splat.scene.scene_fit import fit_scene
+from wm.splat.scene.scene_render import SceneRenderer
 from wm.stages.fitters import Fitters
 from wm.stages.heldout import HeldOut
 from wm.stages.job import Job

@@ -17,12 +17,12 @@ import jax
 import numpy as np
 
 from wm.geometry import cast
-from wm.geometry.mesh import face_crosses
+from wm.geometry.mesh.scene_mesh import face_crosses
 from wm.host import cores
 from wm.schema import FitSettings, RunConfig
-from wm.splat.room_worker import RoomWorker, WorkerClosed
-from wm.splat.scene_fit import fit_scene
-from wm.splat.training import TrainingView
+from wm.splat.optimization.training import TrainingView
+from wm.splat.scene.room_worker import RoomWorker, WorkerClosed
+from wm.splat.scene.scene_fit import fit_scene
 from wm.stages.fitters import Fitters
 from wm.stages.job import Job
 from wm.stages.reconstruction import training_view

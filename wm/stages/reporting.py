@@ -8,9 +8,9 @@ import numpy as np
 from wm.artifacts import json_text
 from wm.codecs import to_bytes
 from wm.geometry import cast, walkthrough
-from wm.geometry.camera import scale_camera
+from wm.geometry.rays.pinhole import scale_camera
 from wm.report import ReportData, SheetRow, render_page, write_video
-from wm.splat.curve import HELDOUT
+from wm.splat.optimization.curve import HELDOUT
 from wm.stages.evaluation import GLIMPSE, METRICS, Seen, glimpse, look_all, stored_render
 from wm.stages.job import Job
 from wm.stages.ordered import in_order

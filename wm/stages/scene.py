@@ -21,7 +21,7 @@ from wm.geometry import (
 from wm.stages.job import Job
 from wm.synth.backends import SceneContext, make_backend
 from wm.synth.furnished import make_furnisher
-from wm.synth.language.propose import propose_plan
+from wm.synth.proposing import propose_plan
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"

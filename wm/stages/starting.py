@@ -1,8 +1,8 @@
 """Where the fit of a room starts: gaussians on all its surface that anyone may see, also where none of its own views looks.
 
-What the room's views show makes the cloud. Exposed surface that they leave bare (wm.geometry.exposed) is covered too: in the
-colours that views from other rooms show of it through the doors, else in those of the surface nearest to it. No view of the room
-corrects these gaussians, so they keep them.
+What the room's views show makes the cloud. Exposed surface that they leave bare (wm.geometry.cameras.exposed_surface) is covered
+too: in the colours that views from other rooms show of it through the doors, else in those of the surface nearest to it. No view
+of the room corrects these gaussians, so they keep them.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -11,12 +11,12 @@ import numpy as np
 from jaxtyping import Float
 
 from wm.geometry import visible_rooms
-from wm.geometry.camera import camera_center, project_points
-from wm.geometry.exposed import exposed, room_eyes, room_surface
-from wm.geometry.surface_points import SurfacePoints, framed, in_sight, some_points
+from wm.geometry.cameras.exposed_surface import exposed, room_eyes, room_surface
+from wm.geometry.rays.pinhole import camera_center, project_points
+from wm.geometry.rays.surface_points import SurfacePoints, framed, in_sight, some_points
 from wm.schema import CameraSettings, FitSettings
-from wm.splat.cloud import Cloud, extended, initial_gaussians, one_a_cell, vacant
-from wm.splat.training import TrainingView
+from wm.splat.optimization.cloud import Cloud, extended, initial_gaussians, one_a_cell, vacant
+from wm.splat.optimization.training import TrainingView
 from wm.stages.scene import Scene
 from wm.types import OUTSIDE, Gaussians, View
 

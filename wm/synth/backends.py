@@ -1,6 +1,6 @@
 """What a backend must offer, and the registry that imports the one that was selected.
 
-A backend is a small class behind one of the protocols below. Selecting `image=procedural` imports `wm.synth.image.procedural` and
+A backend is a small class behind one of the protocols below. Selecting `image=procedural` imports `wm.offline.image.painter` and
 calls its `make(config, context)`; nothing of the others is imported. Real models see only what the paper's would (condition,
 reference, prompt, seed); the offline ones may also look at the scene they were made for.
 
@@ -15,7 +15,7 @@ from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from wm.geometry.site import Site
+from wm.geometry.plan.site import Site
 from wm.schema import BACKEND_KEYS, DepthConfig, ImageConfig, RunConfig
 from wm.types import Camera, Mesh, SceneObject, View
 
@@ -187,6 +187,15 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "segmentation": ("drawn",),
     "reconstruction": ("templates",),
 }
+_MODULES = {
+    ("language", "grammar"): "wm.offline.language.grammar",
+    ("image", "procedural"): "wm.offline.image.painter",
+    ("objects", "procedural"): "wm.offline.objects.generator",
+    ("objects", "lifted"): "wm.synth.lifting.lifted",
+    ("depth", "procedural"): "wm.offline.depth.estimator",
+    ("segmentation", "drawn"): "wm.offline.segmentation.drawn",
+    ("reconstruction", "templates"): "wm.offline.reconstruction.templates",
+}
 DRAWING = ("procedural",)
 """Image backends whose results tell what they drew (`ImageResult.drawn_*`), as no real model's do."""
 READING = {"depth": ("procedural",), "segmentation": ("drawn",)}
@@ -210,7 +219,7 @@ def make_backend(group: str, config: Any, context: SceneContext | None = None) -
     name = _selected(group, config)
     if name not in CHOICES[group]:
         raise ValueError(f"unknown {group} backend {name!r}; choices: {', '.join(CHOICES[group])}")
-    module = importlib.import_module(f"wm.synth.{group}.{name}")
+    module = importlib.import_module(_MODULES[group, name])
     return module.make(config, context)
 
 

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from wm.geometry.camera import ray_basis
-from wm.geometry.mesh import BOX_COLOR
-from wm.geometry.object_colors import object_colors
-from wm.geometry.sampling import sample_atlas
+from wm.geometry.mesh.object_colors import object_colors
+from wm.geometry.mesh.scene_mesh import BOX_COLOR
+from wm.geometry.rays.pinhole import ray_basis
+from wm.geometry.texture.sampling import sample_atlas
 from wm.schema import ConditionConfig, TextureSettings
 from wm.synth.backends import Condition
 from wm.types import OUTSIDE, Atlas, Camera, GBuffer, Mesh, SceneObject

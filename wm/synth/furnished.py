@@ -8,7 +8,7 @@ from collections.abc import Callable
 from wm.geometry import FloorPlan, build_structure, load_plan
 from wm.schema import DepthConfig, ImageConfig, RunConfig
 from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext, close_backend, make_backend
-from wm.synth.language.propose import propose_plan
+from wm.synth.proposing import propose_plan
 from wm.types import SceneObject
 
 

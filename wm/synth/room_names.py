@@ -1,7 +1,7 @@
 """What a room is, by its name: one vocabulary for who lays a house out and for who finishes and furnishes its rooms.
 
-A name speaks of one sort of room. How large a sort is and how it likes to be reached says wm.synth.language.programme, what is
-in it and how it is finished wm.synth.procedural.room_type: each has an entry for every sort, so that they cannot disagree.
+A name speaks of one sort of room. How large a sort is and how it likes to be reached says wm.offline.language.programme, what is
+in it and how it is finished wm.offline.arrangement.room_type: each has an entry for every sort, so that they cannot disagree.
 """
 
 import re

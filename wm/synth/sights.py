@@ -4,8 +4,8 @@ import numpy as np
 import shapely
 from jaxtyping import Bool, Float
 
-from wm.geometry.camera import camera_center, project_points
-from wm.geometry.site import Gap, Site
+from wm.geometry.plan.site import Gap, Site
+from wm.geometry.rays.pinhole import camera_center, project_points
 from wm.types import Camera
 
 _ASIDE = 0.35

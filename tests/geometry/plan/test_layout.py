@@ -1,0 +1,239 @@
+"""Floor plan JSON: round trips, what is accepted, and that everything wrong is named at once."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.geometry.plans import (
+    checked,
+    l_shaped,
+    one_room,
+    opening,
+    random_plan,
+    rectangle,
+    two_rooms,
+    window,
+)
+from wm.geometry import FloorPlan, PlanError, Room, build_structure, load_plan, parse_plan, plan_to_json
+from wm.geometry.plan.rules import RULES
+
+# In the layout of the published files: doors listed by one room or by both, doors without a sill, integers as coordinates.
+PUBLISHED = """{
+  "metadata": {"units": "meters", "coordinate_system": "z_up", "wall_thickness": 0.15, "default_ceiling_height": 2.8},
+  "rooms": [
+    {"id": "foyer", "name": "Foyer", "floor_polygon": [[0, 0], [6, 0], [6, 4], [0, 4]], "ceiling_height": 2.8,
+     "openings": [
+       {"type": "door", "wall_segment": [[6, 0], [6, 4]], "position": 1.55, "width": 0.9, "height": 2.1},
+       {"type": "window", "wall_segment": [[0, 0], [6, 0]], "position": 2.25, "width": 1.5, "height": 1.2, "sill_height": 0.9}]},
+    {"id": "parlour", "name": "Parlour", "floor_polygon": [[6, 0], [10, 0], [10, 4], [6, 4]], "ceiling_height": 2.8,
+     "openings": [{"type": "door", "wall_segment": [[6, 4], [6, 0]], "position": 1.55, "width": 0.9, "height": 2.1}]}
+  ],
+  "objects": []
+}"""
+
+
+def rules_of(plan: FloorPlan) -> list[tuple[str | None, str]]:
+    with pytest.raises(PlanError) as caught:
+        checked(plan)
+    return [(violation.room, violation.rule) for violation in caught.value.violations]
+
+
+def text_rules(text: str) -> list[tuple[str | None, str]]:
+    with pytest.raises(PlanError) as caught:
+        parse_plan(text)
+    assert all(str(violation) in str(caught.value) for violation in caught.value.violations)
+    assert {violation.rule for violation in caught.value.violations} <= set(RULES)
+    return [(violation.room, violation.rule) for violation in caught.value.violations]
+
+
+def test_the_published_layout_loads():
+    plan = parse_plan(PUBLISHED)
+    assert [room.id for room in plan.rooms] == ["foyer", "parlour"]
+    assert plan.wall_thickness == 0.15
+    assert plan.rooms[0].openings[0].sill_height == 0.0
+    np.testing.assert_array_equal(plan.rooms[1].polygon, [[6, 0], [10, 0], [10, 4], [6, 4]])
+
+
+def test_a_plan_file_loads(tmp_path):
+    file = tmp_path / "plan.json"
+    file.write_bytes(b"\xef\xbb\xbf" + PUBLISHED.encode())
+    assert plan_to_json(load_plan(file)) == plan_to_json(parse_plan(PUBLISHED))
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(1, 20))
+def test_json_round_trip(seed, rooms):
+    text = plan_to_json(random_plan(seed, rooms))
+    assert plan_to_json(parse_plan(text)) == text
+
+
+def test_fields_with_defaults_may_be_missing():
+    plan = parse_plan(
+        '{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [4, 0], [4, 4], [0, 4]], "extra": 1, "openings":'
+        ' [{"type": "window", "wall_segment": [[0, 0], [4, 0]], "position": 1, "width": 1, "height": 1}]}]}'
+    )
+    assert (plan.rooms[0].name, plan.rooms[0].ceiling_height, plan.rooms[0].openings[0].sill_height) == ("a", 2.8, 0.9)
+
+
+def test_clockwise_and_closed_polygons_mean_the_same():
+    plan = l_shaped()
+    turned = FloorPlan(
+        tuple(dataclasses.replace(room, polygon=np.concatenate([room.polygon, room.polygon[:1]])[::-1]) for room in plan.rooms)
+    )
+    mesh, other = build_structure(checked(plan)), build_structure(checked(turned))
+    np.testing.assert_array_equal(mesh.vertices, other.vertices)
+    np.testing.assert_array_equal(mesh.faces, other.faces)
+
+
+def test_points_in_the_middle_of_a_wall_change_nothing():
+    plan = two_rooms()
+    ring = np.array([[0, 0], [2, 0], [5, 0], [5, 1], [5, 2.5], [5, 4], [3, 4], [0, 4]], float)
+    split = FloorPlan((dataclasses.replace(plan.rooms[0], polygon=ring), plan.rooms[1]))
+    mesh, other = build_structure(checked(plan)), build_structure(checked(split))
+    np.testing.assert_array_equal(mesh.vertices, other.vertices)
+    np.testing.assert_array_equal(mesh.faces, other.faces)
+
+
+@pytest.mark.parametrize("plan", [one_room(), two_rooms(), l_shaped()])
+def test_accepted(plan):
+    assert len(checked(plan).rooms) == len(plan.rooms)
+
+
+def test_rooms_a_centimetre_apart_still_touch():
+    plan = two_rooms()
+    moved = dataclasses.replace(plan.rooms[1], polygon=plan.rooms[1].polygon + np.array([0.009, 0]), openings=())
+    build_structure(checked(FloorPlan((plan.rooms[0], moved))))
+
+
+A = rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1.5))
+B = rectangle("b", 4, 0, 8, 4)
+
+
+@pytest.mark.parametrize(
+    ("rooms", "expected"),
+    [
+        ((A, dataclasses.replace(B, id="A")), [("A", "duplicate_id")]),
+        ((A, B, rectangle("c", 20, 0, 24, 4)), [("c", "unreachable")]),
+        ((A, B, rectangle("c", 3, 3, 5, 8)), [("a", "rooms_overlap"), ("b", "rooms_overlap"), ("c", "unreachable")]),
+        ((A, B, rectangle("c", 0, 4, 0.4, 8)), [("c", "room_too_small")]),
+        ((A, B, rectangle("c", 0, 4, 0.8, 8)), [("c", "room_too_small"), ("c", "unreachable")]),
+        ((Room("a", "a", np.array([[0, 0], [4, 4], [4, 0], [0, 4.0]]), 2.8, ()),), [("a", "self_intersection")]),
+        ((Room("a", "a", np.array([[0, 0], [4, 0], [2, 0.0]]), 2.8, ()),), [("a", "zero_area")]),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (0, 0), (4, 0), 1)),), [("a", "door_exterior")]),
+        ((rectangle("a", 0, 0, 4, 4, window((0, 1), (4, 1), 1)),), [("a", "opening_off_wall")]),
+        ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 2.8)),), [("a", "opening_off_wall")]),
+        ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 0.1)),), [("a", "opening_off_wall")]),
+        ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 1), height=2.0),), [("a", "opening_off_wall")]),
+        ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 1), window((4, 0), (0, 0), 1)),), [("a", "openings_overlap")]),
+        ((dataclasses.replace(A, openings=(*A.openings, window((4, 0), (4, 4), 0.2, 0.5))), B), [("a", "window_interior")]),
+        ((A, dataclasses.replace(B, openings=(opening("door", (4, 0), (4, 4), 2.0),))), [("b", "openings_overlap")]),
+        ((A, dataclasses.replace(B, openings=(opening("passage", (4, 0), (4, 4), 1.5),))), [("b", "openings_overlap")]),
+        ((A, dataclasses.replace(B, ceiling_height=2.0)), [("a", "opening_off_wall")]),
+        (
+            (rectangle("a", 0, 0, 4, 4, window((4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)),
+            [("a", "window_interior"), ("b", "unreachable")],
+        ),
+        # A door must lead into one room, not along two.
+        (
+            (rectangle("a", 0, 0, 4, 8, opening("door", (4, 0), (4, 8), 3.5)), B, rectangle("c", 4, 4, 8, 8)),
+            [("a", "door_exterior"), ("b", "unreachable"), ("c", "unreachable")],
+        ),
+    ],
+)
+def test_each_rule_is_named_with_its_room(rooms, expected):
+    assert rules_of(FloorPlan(rooms)) == expected
+
+
+def test_every_violation_is_named_at_once():
+    rooms = (
+        rectangle("a", 0, 0, 4, 4, opening("door", (0, 0), (4, 0), 1), window((0, 0), (9, 0), 7)),
+        rectangle("a", 4, 0, 8, 4),
+        rectangle("c", 7, 0, 12, 4, window((7, 4), (7, 0), 1)),
+        Room("d", "d", np.array([[20, 0], [24, 4], [24, 0], [20, 4.0]]), 2.8, ()),
+    )
+    text = plan_to_json(FloorPlan(rooms)).replace('"ceiling_height": 2.8', '"ceiling_height": "high"', 1)
+    found = text_rules(text)
+    assert set(found) == {
+        ("a", "type"),
+        ("a", "duplicate_id"),
+        ("d", "self_intersection"),
+        ("a", "rooms_overlap"),
+        ("a", "door_exterior"),
+        ("a", "opening_off_wall"),
+        ("c", "window_interior"),
+    }
+
+
+def test_doors_to_a_broken_room_are_not_blamed():
+    bow = Room("b", "b", np.array([[4, 0], [8, 4], [8, 0], [4, 4.0]]), 2.8, ())
+    assert rules_of(FloorPlan((A, bow))) == [("b", "self_intersection")]
+
+
+SQUARE = '"floor_polygon": [[0, 0], [4, 0], [4, 4], [0, 4]]'
+
+
+def square_with(fields: str, metadata: str = "{}") -> str:
+    """Plan text with one square room that has these fields."""
+    return f'{{"metadata": {metadata}, "rooms": [{{{fields}, {SQUARE}}}]}}'
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("", [(None, "json")]),
+        (PUBLISHED[:400], [(None, "json")]),
+        ("[" * 1_000_000, [(None, "json")]),
+        ('{"a":' * 100_000, [(None, "json")]),
+        ('{"rooms": [{"id": "a", "id": "b"}]}', [(None, "json")]),
+        ('{"rooms": NaN}', [(None, "json")]),
+        ('{"rooms": -Infinity}', [(None, "json")]),
+        ("[" + "1" * 10_000 + "]", [(None, "json")]),
+        (" " * (8 * 2**20 + 1), [(None, "json")]),
+        ("null", [(None, "type")]),
+        ("{}", [(None, "type")]),
+        ('{"rooms": []}', [(None, "no_rooms")]),
+        ('{"rooms": [' + ",".join(["{}"] * 100_000) + "]}", [(None, "too_many")]),
+        ('{"rooms": [7]}', [("rooms[0]", "type")]),
+        ('{"rooms": [{"id": "a"}]}', [("a", "type")]),
+        (square_with('"id": 1, "name": "x"'), [("rooms[0]", "room_id")]),
+        (square_with('"id": "../../etc", "name": "x"'), [("rooms[0]", "room_id")]),
+        (square_with('"id": "a", "name": "\\ud800"'), [("a", "type")]),
+        ('{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [1e999, 0], [4, 4]]}]}', [("a", "number")]),
+        ('{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [1e9, 0], [1e9, 1e9]]}]}', [("a", "number")]),
+        ('{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [1, true], [4, 4]]}]}', [("a", "type")]),
+        (square_with('"id": "a", "ceiling_height": 1e9'), [("a", "number")]),
+        (square_with('"id": "a", "ceiling_height": "3"'), [("a", "type")]),
+        (square_with('"id": "a", "openings": {}'), [("a", "type")]),
+        (square_with('"id": "a", "openings": [{"type": ["door"]}, 3]'), [("a", "opening_type"), ("a", "type")]),
+        (
+            square_with('"id": "a"', '{"units": "feet", "wall_thickness": 9}'),
+            [(None, "units"), (None, "number")],
+        ),
+    ],
+)
+def test_hostile_text_is_one_error(text, expected):
+    assert text_rules(text) == expected
+
+
+def test_a_heap_of_identical_rooms_is_refused_before_all_pairs_are_met():
+    room = '{"id": "r%d", ' + SQUARE + "}"
+    found = text_rules('{"rooms": [' + ",".join(room % k for k in range(2048)) + "]}")
+    assert {rule for _, rule in found} == {"rooms_overlap"} and len(found) == 256
+
+
+def test_unreadable_files_are_one_error(tmp_path):
+    (tmp_path / "latin.json").write_bytes(PUBLISHED.replace("Foyer", "Foyé").encode("latin-1"))
+    (tmp_path / "huge.json").write_bytes(b" " * (8 * 2**20 + 1))
+    for name in ("missing.json", ".", "latin.json", "huge.json", "nul\0.json"):
+        with pytest.raises(PlanError, match="file") as caught:
+            load_plan(tmp_path / name)
+        assert len(caught.value.violations) == 1
+
+
+def test_messages_stay_short():
+    with pytest.raises(PlanError) as caught:
+        parse_plan(json.dumps({"rooms": [{"id": "x" * 100_000, "name": ["y"] * 100_000, "floor_polygon": "z" * 100_000}]}))
+    assert len(str(caught.value)) < 1000

@@ -1,0 +1,19 @@
+"""Colour: sRGB encoding, linear light and luminance."""
+
+import numpy as np
+from jaxtyping import Float
+
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)
+"""Rec. 709 weights of linear red, green and blue."""
+
+
+def to_linear(srgb: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
+    """sRGB-encoded in [0, 1] to linear light (Source: IEC 61966-2-1)."""
+    x = np.asarray(srgb)
+    return np.where(x <= 0.04045, x / 12.92, ((np.maximum(x, 0) + 0.055) / 1.055) ** 2.4).astype(x.dtype)
+
+
+def to_srgb(linear: Float[np.ndarray, "..."]) -> Float[np.ndarray, "..."]:
+    """Linear light, clipped to [0, 1], to sRGB encoding."""
+    x = np.clip(linear, 0, 1)
+    return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.maximum(x, 1e-9) ** (1 / 2.4) - 0.055).astype(x.dtype)

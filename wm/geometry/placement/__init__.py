@@ -1,0 +1,11 @@
+"""Furniture in a room: where it may stand, what it rests on, and where people can still walk.
+
+    placing        place_objects: reconstructed things become furniture
+    laws           the laws of a furnished room, checked on meshes
+    occupancy      what of a room is taken
+    stacking       one thing on another
+    support        what a thing rests on, told by its label
+    upright        setting things upright and moving them
+    upright_box    boxes that stand upright
+    navigation     navigability: the occupancy grid and its largest component
+"""

@@ -1,0 +1,137 @@
+"""Where a visitor can walk: the occupancy grid of a furnished plan and how much of it hangs together.
+
+A cell is free if its centre lies on a room's floor or in a door or passage, and not on an object that stands on the floor. Only
+centres are tested, so a wall askew to the grid closes no door of more than two cells. A body of radius r fits where its
+centre is r away from every wall and object: exact, in the plane, before anything is rasterized.
+Source: WorldMesh, supplement, "Navigability" (0.15 m, largest 4-connected component); the body is ours.
+"""
+
+import dataclasses
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import scipy.ndimage
+import shapely
+from jaxtyping import Bool, Float, Int
+from shapely.geometry.base import BaseGeometry
+
+from wm.geometry.plan.footprint import Portal, interior_polygon, portals
+from wm.geometry.plan.records import FloorPlan
+from wm.schema import NavigationSettings
+from wm.types import Mesh, SceneObject
+
+STEP = 0.1
+"""Metres below which a thing on the floor is stepped on: a rug, a threshold."""
+_OVERLAP = 0.01
+"""Metres by which a passage reaches into either room, so that floors and passages are one area."""
+_DEFAULTS = NavigationSettings()
+BODY, HEADROOM = _DEFAULTS.body_radius, _DEFAULTS.obstacle_height
+"""Radius of the body that furniture leaves way for, and the height below which a thing is in its way, metres. They are the
+defaults of the body that navigability is measured with, and stay so when another is measured: what stands where does not depend
+on how it is judged."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Navigability:
+    """The occupancy grid and its verdict. Cell (j, i) has its centre at origin + cell * (i + 0.5, j + 0.5)."""
+
+    share: float  # of the free cells, in the largest 4-connected component; 0 where no cell is free
+    share_body: float  # the same for the cells in which a body of `body_radius` fits
+    free: np.ndarray  # [gy, gx] bool
+    component: np.ndarray  # [gy, gx] int32: 0 where not free, else 1, 2 ... from the largest component to the smallest
+    origin: np.ndarray  # [2] float64, metres
+    cell: float
+
+
+def navigability(
+    plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS
+) -> Navigability:
+    """The share of the free floor that can be reached from its largest part.
+
+    Obstacles are objects that stand on the floor or on one another (support "floor" or "object"), by the outline of what is
+    lower than `obstacle_height`; what is lower than STEP is walked over.
+    """
+    floor = walkable_floor(plan)
+    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
+    area = floor.difference(outlines(standing, STEP, settings.obstacle_height))
+    low, high = np.array(floor.bounds[:2]), np.array(floor.bounds[2:])
+    columns, rows = (int(n) for n in np.ceil((high - low) / settings.cell))
+    free = cells_inside(area, low, settings.cell, (rows, columns))
+    component, share = _components(free)
+    _, share_body = _components(cells_inside(area.buffer(-settings.body_radius), low, settings.cell, (rows, columns)))
+    return Navigability(share=share, share_body=share_body, free=free, component=component, origin=low, cell=settings.cell)
+
+
+def walkable_floor(plan: FloorPlan) -> BaseGeometry:
+    """The floors of all rooms and of the doors and passages between them."""
+    floors = [interior_polygon(plan, index) for index in range(len(plan.rooms))]
+    return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.kind != "window")])
+
+
+def outlines(things: Iterable[Float[np.ndarray, "_ 3 3"]], low: float, high: float) -> BaseGeometry:
+    """The union, from above, of the convex outlines of the things' parts below `high`; things that end below `low` have none.
+
+    Args:
+      things: the triangles [f, corner, xyz] of each.
+      low, high: metres above the floor.
+    """
+    hulls = []
+    for corners in things:
+        below = _below(corners, high)
+        if len(below) and corners[..., 2].max() > low:
+            hulls.append(shapely.convex_hull(shapely.multipoints(below)))
+    return shapely.union_all(hulls)
+
+
+def _below(corners: Float[np.ndarray, "f 3 3"], high: float) -> Float[np.ndarray, "n 2"]:
+    """From above, the corners below a height and the points at which edges cross it: their hull is that of the part below."""
+    start = corners.reshape(-1, 3)
+    end = np.roll(corners, -1, axis=1).reshape(-1, 3)
+    up = (start[:, 2] < high) & (end[:, 2] >= high)
+    down = (start[:, 2] >= high) & (end[:, 2] < high)
+    foot, top = np.concatenate([start[up], end[down]]), np.concatenate([end[up], start[down]])
+    share = (high - foot[:, 2:]) / (top[:, 2:] - foot[:, 2:])
+    crossings = foot[:, :2] + share * (top[:, :2] - foot[:, :2])
+    return np.concatenate([start[start[:, 2] < high, :2], crossings])
+
+
+def body_floor(
+    plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3 3"]], *, height: float, radius: float
+) -> BaseGeometry:
+    """Where the centre of a body of this height and radius can be among these things, of which the triangles are given."""
+    return walkable_floor(plan).difference(outlines(things, STEP, height)).buffer(-radius)
+
+
+def object_corners(mesh: Mesh) -> list[Float[np.ndarray, "_ 3 3"]]:
+    """The triangles [f, corner, xyz] of each object in a scene's mesh."""
+    used = np.flatnonzero(mesh.face_object >= 0)
+    used = used[np.argsort(mesh.face_object[used], kind="stable")]
+    starts = np.flatnonzero(np.diff(mesh.face_object[used], prepend=-1))
+    return [mesh.vertices[faces] for faces in np.split(mesh.faces[used], starts[1:])] if len(used) else []
+
+
+def cells_inside(
+    area: BaseGeometry, origin: Float[np.ndarray, "2"], cell: float, shape: tuple[int, int]
+) -> Bool[np.ndarray, "gy gx"]:
+    """Which cells have their centre in the area."""
+    shapely.prepare(area)
+    x, y = (origin[k] + cell * (np.arange(shape[1 - k]) + 0.5) for k in (0, 1))
+    return shapely.intersects_xy(area, x[None, :], y[:, None])
+
+
+def _passage(portal: Portal) -> shapely.Polygon:
+    before, behind = (-portal.half_depths[0] - _OVERLAP) * portal.normal, (portal.half_depths[1] + _OVERLAP) * portal.normal
+    start, end = portal.ends
+    return shapely.Polygon([start + before, end + before, end + behind, start + behind])
+
+
+def _components(free: Bool[np.ndarray, "gy gx"]) -> tuple[Int[np.ndarray, "gy gx"], float]:
+    """4-connected components by size, and the largest one's share of the free cells."""
+    labels = np.zeros(free.shape, np.int32)
+    scipy.ndimage.label(free, output=labels)
+    count = int(labels.max(initial=0))
+    sizes = np.bincount(labels.reshape(-1), minlength=count + 1)[1:]
+    rank = np.zeros(count + 1, np.int32)
+    rank[1 + np.argsort(-sizes, kind="stable")] = np.arange(1, count + 1)
+    share = float(sizes.max() / sizes.sum()) if count else 0.0
+    return rank[labels], share

@@ -1,0 +1,265 @@
+"""Reading plan text into records: syntax, types and ranges, every fault named. What rooms mean together is plan_rules'."""
+
+import json
+import re
+from typing import Any
+
+import numpy as np
+
+from wm.geometry.plan.records import FloorPlan, Opening, PlanError, Room, Violation
+
+MAX_BYTES = 8 * 2**20
+MAX_ROOMS = 2048
+MAX_POINTS = 128  # a polygon
+MAX_OPENINGS = 64  # a room
+MAX_COORDINATE = 1e4  # metres
+CEILING = (1.8, 50.0)  # metres: below the lowest nobody stands
+WALL = (0.05, 1.0)
+DEFAULT_WALL = 0.15
+DEFAULT_CEILING = 2.8
+WINDOW_SILL = 0.9  # where a window does not say
+# Ids become folder names (views/<room>/), so nothing that a path could mean.
+_ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
+_KINDS = ("door", "window", "passage")
+# Least and greatest width and height, metres; a body of 0.25 m radius must pass a door.
+_SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
+
+
+def decode(text: str, source: str) -> Any:
+    """The JSON value of a text; duplicate keys, NaN and Infinity are refused.
+
+    Raises:
+      PlanError: one violation, rule "json".
+    """
+    if len(text) > MAX_BYTES:
+        raise _syntax(f"{len(text)} characters long; at most {MAX_BYTES} are read", source)
+    try:
+        return json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant, parse_int=_integer)
+    except RecursionError:
+        raise _syntax("nested too deeply; a plan needs six levels", source) from None
+    except json.JSONDecodeError as error:
+        raise _syntax(f"not JSON: {error.msg} at line {error.lineno} column {error.colno}", source) from None
+    except ValueError as error:
+        raise _syntax(str(error), source) from None
+
+
+def encode(plan: FloorPlan) -> str:
+    """The plan as JSON text: the published layout, numbers exact, same plan same text."""
+    document = {
+        "metadata": {
+            "units": "meters",
+            "coordinate_system": "z_up",
+            "wall_thickness": plan.wall_thickness,
+            "default_ceiling_height": plan.default_ceiling_height,
+        },
+        "rooms": [_room_json(room) for room in plan.rooms],
+        "objects": [],
+    }
+    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _room_json(room: Room) -> dict[str, Any]:
+    return {
+        "id": room.id,
+        "name": room.name,
+        "floor_polygon": room.polygon.tolist(),
+        "ceiling_height": room.ceiling_height,
+        "openings": [
+            {
+                "type": opening.kind,
+                "wall_segment": opening.segment.tolist(),
+                "position": opening.position,
+                "width": opening.width,
+                "height": opening.height,
+                "sill_height": opening.sill_height,
+            }
+            for opening in room.openings
+        ],
+    }
+
+
+class Reader:
+    """Collects violations while it turns decoded JSON into records; what cannot be read is None."""
+
+    def __init__(self) -> None:
+        self.violations: list[Violation] = []
+        self.rooms_missing = False  # rooms are in the document that could not be read
+        self.openings_missing = False  # openings likewise
+
+    def plan(self, document: Any) -> FloorPlan | None:
+        """The plan of all rooms and openings that could be read; None where there is no room."""
+        if not isinstance(document, dict):
+            self._fault(None, "type", f"a plan is a JSON object, not {_kind(document)}")
+            return None
+        wall, ceiling = self._metadata(document.get("metadata", {}))
+        rooms = document.get("rooms")
+        if not isinstance(rooms, list):
+            found = "missing" if rooms is None else f"{_kind(rooms)}"
+            self._fault(None, "type", f"'rooms' must be a list of rooms; it is {found}")
+            return None
+        if not rooms:
+            self._fault(None, "no_rooms", "'rooms' is empty; a plan has at least one room")
+            return None
+        if len(rooms) > MAX_ROOMS:
+            self._fault(None, "too_many", f"{len(rooms)} rooms; at most {MAX_ROOMS}")
+            return None
+        read = [self._room(room, index, ceiling) for index, room in enumerate(rooms)]
+        good = tuple(room for room in read if room is not None)
+        self.rooms_missing = len(good) < len(read)
+        return FloorPlan(good, wall, ceiling) if good else None
+
+    def _fault(self, room: str | None, rule: str, message: str) -> None:
+        self.violations.append(Violation(room, rule, message))
+
+    def _metadata(self, metadata: Any) -> tuple[float, float]:
+        if not isinstance(metadata, dict):
+            self._fault(None, "type", f"'metadata' must be an object, not {_kind(metadata)}")
+            return DEFAULT_WALL, DEFAULT_CEILING
+        for key, wanted in (("units", "meters"), ("coordinate_system", "z_up")):
+            if metadata.get(key, wanted) != wanted:
+                self._fault(None, "units", f"metadata.{key} is {_show(metadata[key])}; only {wanted!r} is understood")
+        wall = self._number(None, metadata, "metadata.wall_thickness", DEFAULT_WALL, *WALL)
+        ceiling = self._number(None, metadata, "metadata.default_ceiling_height", DEFAULT_CEILING, *CEILING)
+        return (DEFAULT_WALL if wall is None else wall), (DEFAULT_CEILING if ceiling is None else ceiling)
+
+    def _room(self, value: Any, index: int, ceiling: float) -> Room | None:
+        name = f"rooms[{index}]"
+        if not isinstance(value, dict):
+            self._fault(name, "type", f"a room is an object, not {_kind(value)}")
+            return None
+        room_id = value.get("id")
+        if isinstance(room_id, str) and _ID.fullmatch(room_id):
+            name = room_id
+        else:
+            self._fault(
+                name,
+                "room_id",
+                f"'id' is {_show(room_id)}; it must be 1 to 64 of a-z, A-Z, 0-9, _ and -, a letter or digit first",
+            )
+        title = value.get("name", room_id)
+        if not isinstance(title, str) or len(title) > 200 or not title.isprintable():
+            self._fault(name, "type", f"'name' is {_show(title)}; it must be one line of at most 200 printable characters")
+            title = name
+        height = self._number(name, value, "ceiling_height", ceiling, *CEILING)
+        polygon = self._points(name, value.get("floor_polygon"), "floor_polygon", 3, MAX_POINTS)
+        openings = value.get("openings", [])
+        if not isinstance(openings, list) or len(openings) > MAX_OPENINGS:
+            found = f"{len(openings)} long" if isinstance(openings, list) else _kind(openings)
+            self._fault(name, "type", f"'openings' is {found}; it must be a list of at most {MAX_OPENINGS}")
+            openings = []
+            self.openings_missing = True
+        read = [self._opening(name, opening, k) for k, opening in enumerate(openings)]
+        good = tuple(opening for opening in read if opening is not None)
+        self.openings_missing |= len(good) < len(read)
+        if polygon is None:
+            return None
+        # A height that cannot be read must not make openings reach above it.
+        return Room(name, title, _counter_clockwise(polygon), CEILING[1] if height is None else height, good)
+
+    def _opening(self, room: str, value: Any, k: int) -> Opening | None:
+        name = f"openings[{k}]"
+        if not isinstance(value, dict):
+            self._fault(room, "type", f"{name} is {_kind(value)}; an opening is an object")
+            return None
+        kind = value.get("type")
+        if kind not in _KINDS:
+            self._fault(room, "opening_type", f"{name}.type is {_show(kind)}; choices: {', '.join(_KINDS)}")
+            return None
+        segment = self._points(room, value.get("wall_segment"), f"{name}.wall_segment", 2, 2)
+        least_width, least_height = _SIZES[kind]
+        position = self._number(room, value, f"{name}.position", None, 0.0, MAX_COORDINATE)
+        width = self._number(room, value, f"{name}.width", None, least_width, 100.0)
+        height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1])
+        sill = self._number(
+            room,
+            value,
+            f"{name}.sill_height",
+            WINDOW_SILL if kind == "window" else 0.0,
+            0.0,
+            CEILING[1] if kind == "window" else 0.0,
+        )
+        if segment is None or position is None or width is None or height is None or sill is None:
+            return None
+        if not np.linalg.norm(segment[1] - segment[0]) > 1e-3:
+            self._fault(room, "opening_off_wall", f"{name}.wall_segment has no length")
+            return None
+        return Opening(kind, segment, position, width, height, sill)
+
+    def _number(self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float) -> float | None:
+        value = holder.get(path.rsplit(".", 1)[-1], default)
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            found = "missing" if value is None else _show(value)
+            self._fault(room, "type", f"{path} is {found}; it must be a number of metres")
+            return None
+        if not low <= value <= high:  # also false for infinities
+            wanted = f"{low:g}" if low == high else f"between {low:g} and {high:g}"
+            self._fault(room, "number", f"{path} is {_show(value)}; it must be {wanted} (metres)")
+            return None
+        return float(value)
+
+    def _points(self, room: str, value: Any, path: str, least: int, most: int) -> np.ndarray | None:
+        """[k, 2] of a list of [x, y]; one violation for the first fault."""
+        if not isinstance(value, list) or not least <= len(value) <= most:
+            found = "missing" if value is None else f"{len(value)} points long" if isinstance(value, list) else _kind(value)
+            wanted = f"{least}" if least == most else f"{least} to {most}"
+            self._fault(room, "type", f"{path} is {found}; it must be a list of {wanted} points [x, y]")
+            return None
+        for k, point in enumerate(value):
+            if not isinstance(point, list) or len(point) != 2 or not all(_is_number(x) for x in point):
+                self._fault(room, "type", f"{path}[{k}] is {_show(point)}; a point is two numbers [x, y]")
+                return None
+            if not all(abs(x) <= MAX_COORDINATE for x in point):
+                self._fault(
+                    room, "number", f"{path}[{k}] is {_show(point)}; coordinates are finite and within {MAX_COORDINATE:g} m"
+                )
+                return None
+        return np.array(value, dtype=np.float64)
+
+
+def _counter_clockwise(points: np.ndarray) -> np.ndarray:
+    """The polygon without repeated neighbouring points, counter-clockwise; clockwise ones are reversed."""
+    apart = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1) > 1e-6
+    points = points[apart] if apart.any() else points[:1]
+    x, y = points.T
+    area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
+    return points[::-1].copy() if area < 0 else points
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    result = dict(pairs)
+    if len(result) < len(pairs):
+        seen: set[str] = set()
+        twice = next(key for key, _ in pairs if key in seen or seen.add(key))
+        raise ValueError(f"key {_show(twice)} appears twice in one object")
+    return result
+
+
+def _integer(digits: str) -> int:
+    if len(digits) > 18:
+        raise ValueError(f"a number of {len(digits)} digits is not one a plan can hold")
+    return int(digits)
+
+
+def _no_constant(name: str) -> float:
+    raise ValueError(f"{name} is not a number a plan can hold")
+
+
+def _syntax(message: str, source: str) -> PlanError:
+    return PlanError((Violation(None, "json", message),), source)
+
+
+def _kind(value: Any) -> str:
+    names = {dict: "an object", list: "a list", str: "text", bool: "true or false", type(None): "null"}
+    return names.get(type(value), "a number")
+
+
+def _show(value: Any) -> str:
+    """A value as a message quotes it: short, whatever it is."""
+    if isinstance(value, dict) or (isinstance(value, list) and any(isinstance(part, (dict, list)) for part in value)):
+        return _kind(value)
+    text = json.dumps(value)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,62 @@
+"""What a floor plan is, and what can be wrong with one. Metres, z up; polygons counter-clockwise seen from above."""
+
+import dataclasses
+
+import numpy as np
+
+from wm.errors import InputError
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Opening:
+    """A hole in a wall. Its near edge lies `position` metres along `segment` from the segment's start."""
+
+    kind: str  # door | window | passage
+    segment: np.ndarray  # [2, 2] float64: start and end of a stretch of wall, in either direction
+    position: float
+    width: float
+    height: float
+    sill_height: float  # 0 for doors and passages
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Room:
+    """One room; the polygon's edge is the outer face of an exterior wall and the middle of a shared one."""
+
+    id: str
+    name: str
+    polygon: np.ndarray  # [k, 2] float64, counter-clockwise, simple, first point not repeated
+    ceiling_height: float
+    openings: tuple[Opening, ...]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FloorPlan:
+    """Rooms that touch along their walls. Two plans are equal when their JSON is (`plan_to_json`)."""
+
+    rooms: tuple[Room, ...]
+    wall_thickness: float = 0.15  # of an exterior wall, and of a shared one (half of it in either room)
+    default_ceiling_height: float = 2.8
+
+
+@dataclasses.dataclass(frozen=True)
+class Violation:
+    """One rule that a plan breaks."""
+
+    room: str | None  # id of the room, or "rooms[3]" where it has none; None for the plan as a whole
+    rule: str  # one of RULES of wm.geometry.plan.rules
+    message: str  # what is wrong, where, and what would be right
+
+    def __str__(self) -> str:
+        where = "plan" if self.room is None else f"room {self.room}"
+        return f"{where}: {self.rule}: {self.message}"
+
+
+class PlanError(InputError):
+    """A floor plan that cannot be used, with everything that is wrong with it."""
+
+    def __init__(self, violations: tuple[Violation, ...], source: str = "plan"):
+        self.violations = tuple(violations)
+        self.source = source
+        count = "1 violation" if len(violations) == 1 else f"{len(violations)} violations"
+        super().__init__(f"{source}: {count}\n" + "\n".join(f"  {violation}" for violation in violations))

@@ -1,0 +1,199 @@
+"""The rules a plan keeps, each with a name; all that are broken are named at once.
+
+First each room on its own, then all rooms that are sound together. Where a room is broken or missing, what depends on it
+(doors that may lead there, whether everything can be reached) is not judged.
+"""
+
+import dataclasses
+
+import numpy as np
+import shapely
+
+from wm.geometry.plan.footprint import interiors, walls_of
+from wm.geometry.plan.openings import Place, describe, place_openings
+from wm.geometry.plan.records import FloorPlan, Room, Violation
+from wm.geometry.plan.walls import SHARED, room_polygons
+
+LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius to be entered
+LEAST_AREA = 0.01  # square metres; less is no area
+OUTLOOK = 0.3  # metres of open air a window needs before it
+MOST_OVERLAPS = 256  # more are not listed, and nothing else is asked of such a heap
+
+RULES = {
+    "file": "The file can be read and is UTF-8 text.",
+    "json": "The text is JSON without duplicate keys, NaN or Infinity, and not absurdly long or deep.",
+    "type": "Every field is there, where it has no default, and has the right type.",
+    "number": "Every number is finite and within its range.",
+    "units": "Metres and z up.",
+    "no_rooms": "There is at least one room.",
+    "too_many": "There are not more rooms than can be meant.",
+    "room_id": "Ids are 1 to 64 ASCII letters, digits, _ and -: they become folder names.",
+    "duplicate_id": "No two rooms have one id, case aside.",
+    "opening_type": "An opening is a door, a window or a passage.",
+    "self_intersection": "A room's polygon does not cross or touch itself.",
+    "zero_area": "A room's polygon has an area.",
+    "room_too_small": "Inside its walls a room is one piece that holds a disk of 0.3 m radius.",
+    "rooms_overlap": "Rooms touch at most, within 0.01 m.",
+    "opening_off_wall": "An opening lies on a wall of its room, between the corners inside and below the ceiling.",
+    "openings_overlap": "Openings keep 0.01 m of wall between them; the two entries of one door agree.",
+    "door_exterior": "Doors and passages lead into exactly one other room.",
+    "window_interior": "Windows look outside.",
+    "unreachable": "Every room can be reached from every other through doors and passages.",
+}
+
+
+def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing: bool = False) -> tuple[Violation, ...]:
+    """Every rule that a plan of well-formed records breaks.
+
+    Args:
+      plan: rooms as `Reader` makes them: numbers finite and in range, polygons counter-clockwise.
+      rooms_missing: whether there are more rooms that could not be read.
+      openings_missing: whether rooms have more openings that could not be read.
+    """
+    violations = _duplicates(plan)
+    faults = [_shape_fault(room) for room in plan.rooms]
+    violations += [fault for fault in faults if fault is not None]
+    unknown = _unknown([room for room, fault in zip(plan.rooms, faults) if fault is not None], everywhere=rooms_missing)
+    sound = tuple(room for room, fault in zip(plan.rooms, faults) if fault is None)
+    if not sound:
+        return tuple(violations)
+    plan = dataclasses.replace(plan, rooms=sound)
+    overlaps = _overlaps(plan)
+    violations += overlaps
+    if len(overlaps) >= MOST_OVERLAPS:
+        return tuple(violations)
+    places, misplaced = place_openings(plan, walls_of(plan), unknown)
+    violations += [*_cramped(plan), *misplaced]
+    violations += [fault for place in places if (fault := _squeezed(plan, place)) is not None]
+    violations += _blind_windows(plan, places)
+    if unknown is None and not openings_missing:
+        violations += _unreachable(plan, places)
+    return tuple(violations)
+
+
+def _duplicates(plan: FloorPlan) -> list[Violation]:
+    seen: set[str] = set()
+    violations = []
+    for room in plan.rooms:
+        if room.id.casefold() in seen:
+            violations.append(Violation(room.id, "duplicate_id", "an earlier room has this id; case does not tell them apart"))
+        seen.add(room.id.casefold())
+    return violations
+
+
+def _shape_fault(room: Room) -> Violation | None:
+    """What is wrong with the polygon of one room on its own."""
+    if len(room.polygon) < 3 or shapely.MultiPoint(room.polygon).convex_hull.area < LEAST_AREA:
+        return Violation(room.id, "zero_area", f"floor_polygon covers less than {LEAST_AREA:g} m^2")
+    polygon = shapely.Polygon(room.polygon)
+    if not polygon.is_valid:
+        return Violation(room.id, "self_intersection", f"floor_polygon is not simple: {shapely.is_valid_reason(polygon)}")
+    if polygon.area < LEAST_AREA:
+        return Violation(room.id, "zero_area", f"floor_polygon covers less than {LEAST_AREA:g} m^2")
+    if polygon.buffer(-LEAST_DISK).is_empty:
+        return Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits into floor_polygon")
+    return None
+
+
+def _unknown(broken: list[Room], *, everywhere: bool) -> shapely.Geometry | None:
+    """Where there are rooms whose shape is not known; None where there are no such rooms."""
+    if everywhere:
+        return shapely.box(-1e6, -1e6, 1e6, 1e6)
+    if not broken:
+        return None
+    return shapely.union_all([shapely.MultiPoint(room.polygon).convex_hull.buffer(0.05) for room in broken])
+
+
+def _overlaps(plan: FloorPlan) -> list[Violation]:
+    polygons = room_polygons(plan)
+    # Moved in by half the tolerance, rooms that only touch within it have nothing in common.
+    cores = shapely.buffer(polygons, -SHARED / 2 - 1e-6, join_style="mitre")
+    tree = shapely.STRtree(cores)
+    violations = []
+    for a, core in enumerate(cores):
+        for b in np.sort(tree.query(core, predicate="intersects")):
+            if b > a:
+                area = polygons[a].intersection(polygons[b]).area
+                violations.append(Violation(plan.rooms[a].id, "rooms_overlap", f"overlaps {plan.rooms[b].id} by {area:.3g} m^2"))
+            if len(violations) == MOST_OVERLAPS:
+                return violations
+    return violations
+
+
+def _cramped(plan: FloorPlan) -> list[Violation]:
+    violations = []
+    for room, floor in zip(plan.rooms, interiors(plan)):
+        if floor is None:
+            violations.append(Violation(room.id, "room_too_small", "its walls leave no floor in one piece"))
+        elif floor.buffer(-LEAST_DISK).is_empty:
+            violations.append(Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits between its walls"))
+    return violations
+
+
+def _squeezed(plan: FloorPlan, place: Place) -> Violation | None:
+    """An opening that reaches into a ceiling or into the wall of a corner, on either side."""
+    room = plan.rooms[place.room]
+    opening = room.openings[place.opening]
+    name = describe(opening, place.opening)
+    head = opening.sill_height + opening.height
+    for side in (place.room,) if place.behind is None else (place.room, place.behind.room):
+        other = plan.rooms[side]
+        if head > other.ceiling_height + 1e-9:
+            message = f"{name} reaches {head:g} m high; the ceiling of {other.id} is at {other.ceiling_height:g} m"
+            return Violation(room.id, "opening_off_wall", message)
+        floor = interiors(plan)[side]
+        # The edge of a floor may be off by SHARED where walls are not quite parallel, so look one to two SHARED beyond.
+        face = place.wall.thickness if side == place.room else -place.wall.thickness - place.gap
+        away = 1.0 if side == place.room else -1.0
+        before = _strip(place, face + away * SHARED, face + away * 2 * SHARED)
+        if floor is not None and before.difference(floor).area > 1e-6:
+            message = f"{name} reaches into a corner of {other.id}; keep it between the inner faces of the walls beside it"
+            return Violation(room.id, "opening_off_wall", message)
+    return None
+
+
+def _blind_windows(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation]:
+    windows = [place for place in places if place.behind is None]
+    tree = shapely.STRtree(room_polygons(plan))
+    violations = []
+    for place in windows:
+        room = plan.rooms[place.room]
+        view = _strip(place, -OUTLOOK, -SHARED).buffer(-SHARED / 4, join_style="mitre")
+        blocking = sorted(plan.rooms[k].id for k in tree.query(view, predicate="intersects"))
+        if blocking:
+            name = describe(room.openings[place.opening], place.opening)
+            message = f"{name} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; windows look outside"
+            violations.append(Violation(room.id, "window_interior", message))
+    return violations
+
+
+def _strip(place: Place, first: float, second: float) -> shapely.Polygon:
+    """The rectangle over an opening between two distances inside its wall's line, metres."""
+    wall = place.wall
+    start, end = (wall.start + along * wall.direction for along in (place.low, place.high))
+    return shapely.Polygon(
+        [p + inside * wall.normal for inside, ps in ((first, (start, end)), (second, (end, start))) for p in ps]
+    )
+
+
+def _unreachable(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation]:
+    ways: list[list[int]] = [[] for _ in plan.rooms]
+    for place in places:
+        if place.behind is not None:
+            ways[place.room].append(place.behind.room)
+            ways[place.behind.room].append(place.room)
+    component = [-1] * len(plan.rooms)
+    for seed in range(len(plan.rooms)):
+        queue = [seed] if component[seed] < 0 else []
+        while queue:
+            room = queue.pop()
+            if component[room] < 0:
+                component[room] = seed
+                queue.extend(ways[room])
+    sizes = np.bincount(component, minlength=len(plan.rooms))
+    main = int(np.argmax(sizes))
+    return [
+        Violation(room.id, "unreachable", f"no doors or passages lead to it from {plan.rooms[main].id}")
+        for room, part in zip(plan.rooms, component)
+        if part != main
+    ]

@@ -1,0 +1,112 @@
+"""The room as furniture meets it: its free floor, walls, openings, and the zones that must stay clear."""
+
+import dataclasses
+import math
+
+import numpy as np
+import shapely
+
+from wm.geometry.plan.footprint import interior_polygon, portals
+from wm.geometry.plan.records import FloorPlan
+
+DOOR_DEPTH = 0.9
+"""Metres of floor kept clear before a door or a passage."""
+
+DOOR_SIDE = 0.05
+"""Metres kept clear on either side of it."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Gap:
+    """An opening on one of a site's walls."""
+
+    kind: str  # door | window | passage
+    wall: int
+    low: float  # metres from the wall's start
+    high: float
+    sill: float
+    head: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Site:
+    """One room."""
+
+    polygon: shapely.Polygon  # inner wall faces, counter-clockwise
+    ceiling: float  # metres
+    starts: np.ndarray  # [w, 2] float64: where each wall begins
+    directions: np.ndarray  # [w, 2] unit
+    normals: np.ndarray  # [w, 2] unit, into the room
+    lengths: np.ndarray  # [w]
+    gaps: tuple[Gap, ...]
+    keep: tuple[shapely.Polygon, ...]  # zones before doors and passages
+    probes: np.ndarray  # [d, 2]: a standing place before each door and passage
+    centre: tuple[float, float]  # the point of the floor farthest from the walls
+
+
+def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str, np.ndarray, float, float]]) -> Site:
+    """A room's site.
+
+    Args:
+      polygon: the inner wall faces.
+      ceiling: height above the floor, metres.
+      openings: (kind, ends [2, 2] near the wall's face, sill, head) of each.
+    """
+    polygon = shapely.orient_polygons(polygon)
+    ring = np.asarray(polygon.exterior.coords, np.float64)
+    starts, edges = ring[:-1], np.diff(ring, axis=0)
+    lengths = np.linalg.norm(edges, axis=1)
+    directions = edges / lengths[:, None]
+    normals = np.stack([-directions[:, 1], directions[:, 0]], -1)
+    gaps, keep, probes = [], [], []
+    for kind, ends, sill, head in openings:
+        k = nearest_wall(ends, starts, directions, normals, lengths)
+        along = np.sort((ends - starts[k]) @ directions[k])
+        low, high = max(float(along[0]), 0.0), min(float(along[1]), float(lengths[k]))
+        gaps.append(Gap(kind, k, low, high, sill, head))
+        if kind == "window":
+            continue
+        a, b = starts[k] + (low - DOOR_SIDE) * directions[k], starts[k] + (high + DOOR_SIDE) * directions[k]
+        reach = DOOR_DEPTH * normals[k]
+        keep.append(shapely.Polygon([a - 0.05 * normals[k], b - 0.05 * normals[k], b + reach, a + reach]))
+        probes.append(starts[k] + 0.5 * (low + high) * directions[k] + 0.45 * normals[k])
+    pole = shapely.maximum_inscribed_circle(polygon, tolerance=0.02).coords[0]
+    return Site(
+        polygon=polygon, ceiling=ceiling, starts=starts, directions=directions, normals=normals, lengths=lengths,
+        gaps=tuple(gaps), keep=tuple(keep), probes=np.array(probes).reshape(-1, 2), centre=(float(pole[0]), float(pole[1])),
+    )  # fmt: skip
+
+
+def room_site(plan: FloorPlan, room: int) -> Site:
+    """The site of a plan's room, its openings on the walls' inner faces."""
+    openings = []
+    for portal in portals(plan):
+        if room not in portal.rooms:
+            continue
+        side = portal.rooms.index(room)
+        inward = -portal.normal if side == 0 else portal.normal
+        ends = np.asarray(portal.ends) + portal.half_depths[side] * inward
+        openings.append((portal.kind, ends, portal.sill, portal.head))
+    return make_site(interior_polygon(plan, room), plan.rooms[room].ceiling_height, openings)
+
+
+def nearest_wall(ends: np.ndarray, starts: np.ndarray, directions: np.ndarray, normals: np.ndarray, lengths: np.ndarray) -> int:
+    """The wall an opening is cut into: parallel to it, nearest to its line, and beside it."""
+    middle, along = ends.mean(0), ends[1] - ends[0]
+    offset = np.abs(((middle - starts) * normals).sum(-1))
+    position = ((middle - starts) * directions).sum(-1)
+    beyond = np.maximum(np.maximum(-position, position - lengths), 0.0)
+    skew = np.abs(normals @ (along / max(math.hypot(*along.tolist()), 1e-9)))
+    return int(np.argmin(offset + beyond + 10 * skew))
+
+
+def wall_yaw(normal: np.ndarray) -> float:
+    """Turn about z (radians) that makes a piece's front, -y, face along `normal`."""
+    return math.atan2(float(normal[0]), -float(normal[1]))
+
+
+def rectangle(x: float, y: float, yaw: float, w: float, d: float) -> shapely.Polygon:
+    """An oriented footprint of width w and depth d centred on (x, y)."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    corners = [(-w / 2, -d / 2), (w / 2, -d / 2), (w / 2, d / 2), (-w / 2, d / 2)]
+    return shapely.Polygon([(x + c * a - s * b, y + s * a + c * b) for a, b in corners])

@@ -1,0 +1,131 @@
+"""The straight walls of a plan and which rooms stand behind them.
+
+A wall is a maximal straight run of a room's polygon: points in the middle of a straight edge change nothing. Two walls are
+shared where they run against each other within SHARED metres, in part or in full; a wall that is shared at least in part is
+a shared wall, half as thick on either side as an exterior one (paper, section "Floor Plan Generation"). Pairs come from an
+STRtree, so that the cost is linear in the number of rooms.
+"""
+
+import dataclasses
+
+import numpy as np
+import shapely
+
+from wm.geometry.plan.records import FloorPlan
+
+SHARED = 0.01  # metres within which walls are one: the paper's tolerance
+_BATCH = 1024  # walls asked about at a time
+_STRAIGHT = 1e-6  # metres a point may lie off the line of its neighbours and still be on one wall
+
+
+@dataclasses.dataclass(frozen=True)
+class Behind:
+    """A stretch of a wall with another room on its other side."""
+
+    room: int
+    low: float  # metres along the wall
+    high: float
+    gap_low: float  # signed distance of the other wall outside this one at `low`, within +-SHARED
+    gap_high: float  # and at `high`
+
+    def gap(self, along: float) -> float:
+        """The signed distance of the other wall outside this one, metres along it."""
+        return self.gap_low + (self.gap_high - self.gap_low) * (along - self.low) / (self.high - self.low)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Wall:
+    """One straight wall of one room, its interior on the left of start -> end."""
+
+    room: int
+    start: np.ndarray  # [2]
+    direction: np.ndarray  # [2] unit, counter-clockwise around the room
+    normal: np.ndarray  # [2] unit, into the room
+    length: float
+    thickness: float  # metres from the polygon's edge to the inner face
+    behind: tuple[Behind, ...]  # by increasing `low`; none: an exterior wall
+
+
+def straight_ring(polygon: np.ndarray) -> np.ndarray:
+    """The corners of a simple polygon: its points [k, 2] less those in the middle of a straight edge."""
+    ring = polygon
+    while len(ring) > 3:
+        before, after = np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0)
+        chord = after - before
+        length = np.maximum(np.linalg.norm(chord, axis=1), np.finfo(float).tiny)
+        off = np.abs(_cross(chord, ring - before)) / length
+        straight = (off <= _STRAIGHT) & (np.sum((ring - before) * (after - ring), axis=1) > 0)
+        # Of two neighbouring candidates only one goes at a time: the distance of the other is to be measured again.
+        straight &= ~np.roll(straight, 1) | (np.arange(len(ring)) % 2 == 0)
+        if not straight.any():
+            break
+        ring = ring[~straight]
+    return ring
+
+
+def room_polygons(plan: FloorPlan) -> np.ndarray:
+    """[rooms] shapely polygons, for its vectorised functions."""
+    return np.array([shapely.Polygon(room.polygon) for room in plan.rooms], dtype=object)
+
+
+def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
+    """The walls of every room, counter-clockwise, with the rooms behind them. Polygons must be simple."""
+    rings = [straight_ring(room.polygon) for room in plan.rooms]
+    room = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
+    start = np.concatenate(rings)
+    span = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]) - start
+    length = np.linalg.norm(span, axis=1)
+    direction = span / length[:, None]
+    behind = _shared_stretches(room, start, direction, length)
+    walls: list[list[Wall]] = [[] for _ in rings]
+    for k in range(len(room)):
+        walls[room[k]].append(
+            Wall(
+                room=int(room[k]),
+                start=start[k],
+                direction=direction[k],
+                normal=np.array([-direction[k, 1], direction[k, 0]]),
+                length=float(length[k]),
+                thickness=plan.wall_thickness / 2 if behind[k] else plan.wall_thickness,
+                behind=tuple(sorted(behind[k], key=lambda stretch: (stretch.low, stretch.room))),
+            )
+        )
+    return tuple(tuple(of_room) for of_room in walls)
+
+
+def _shared_stretches(room, start, direction, length) -> list[list[Behind]]:
+    """For each wall, the stretches along which a wall of another room runs against it."""
+    end = start + direction * length[:, None]
+    lines = np.asarray(shapely.linestrings(np.stack([start, end], axis=1)))
+    i, j = _facing(room, direction, lines)
+    # Wall j in the frame of wall i: along it from `near` to `far` (it runs the other way), and how far outside it lies.
+    near = np.sum((end[j] - start[i]) * direction[i], axis=1)
+    far = np.sum((start[j] - start[i]) * direction[i], axis=1)
+    near_gap = _cross(end[j] - start[i], direction[i])
+    far_gap = _cross(start[j] - start[i], direction[i])
+    low, high = np.maximum(near, 0), np.minimum(far, length[i])
+    slope = (far_gap - near_gap) / (far - near)
+    low_gap, high_gap = near_gap + slope * (low - near), near_gap + slope * (high - near)
+    tolerance = SHARED + 1e-9
+    shared = (high - low > SHARED) & (np.abs(low_gap) <= tolerance) & (np.abs(high_gap) <= tolerance)
+    behind: list[list[Behind]] = [[] for _ in room]
+    for k in np.flatnonzero(shared):
+        behind[i[k]].append(Behind(int(room[j[k]]), float(low[k]), float(high[k]), float(low_gap[k]), float(high_gap[k])))
+    return behind
+
+
+def _facing(room: np.ndarray, direction: np.ndarray, lines: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of walls of different rooms that run in opposite directions within SHARED of each other."""
+    tree = shapely.STRtree(lines)
+    pairs = []
+    for first in range(0, len(lines), _BATCH):  # bounds the memory that a hostile plan can ask for
+        i, j = tree.query(lines[first : first + _BATCH], predicate="dwithin", distance=SHARED)
+        i = i + first
+        apart = (room[i] != room[j]) & (np.sum(direction[i] * direction[j], axis=1) < -0.5)
+        pairs.append((i[apart], j[apart]))
+    return np.concatenate([i for i, _ in pairs]), np.concatenate([j for _, j in pairs])
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """The z component of a x b for [n, 2] arrays."""
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]

@@ -1,0 +1,179 @@
+"""Furnishes one room: functional groups by room type, pieces at the walls, pictures, lamps, curtains and clutter.
+
+The dice are np.random.SeedSequence([seed, room index, 4]); two seeds never give the same room, one seed always does.
+"""
+
+import math
+
+import numpy as np
+import shapely
+
+from wm.geometry.plan.site import Site
+from wm.offline.arrangement.groups import middle_piece
+from wm.offline.arrangement.hangings import curtain_pairs, hang, on_wall, wall_piece
+from wm.offline.arrangement.inventory import (
+    ABSENT,
+    AT_WALL,
+    CORNERS,
+    FLAVOUR,
+    ONCE,
+    OVER_FURNITURE,
+    WALL_FEATURES,
+    lamp_sorts,
+    with_lamp,
+)
+from wm.offline.arrangement.job import Job
+from wm.offline.arrangement.layout import Layout, Placed
+from wm.offline.arrangement.programmes import PROGRAMME
+from wm.offline.style.finish import Style
+from wm.types import SceneObject
+
+NARROW = 2.1
+"""Metres of width below which a room is furnished as a corridor, whatever it is called."""
+
+
+def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, density: float = 1.0) -> list[Placed]:
+    """Everything in one room.
+
+    Args:
+      kind: room type, a value of room_type.ROOM_TYPES.
+      density: 0..1, the share of the optional pieces that are tried.
+    """
+    rng = np.random.default_rng(np.random.SeedSequence([seed, room, 4]))
+    layout = Layout(site)
+    if not layout.floor.standing.any():
+        return []
+    narrow = 2 * float(shapely.maximum_inscribed_circle(site.polygon, tolerance=0.02).length) < NARROW
+    kind = "corridor" if narrow and kind in ("hall", "gallery", "living", "other") else kind
+    style = lamped(style, kind, seed)
+    job = Job(layout, style, rng, density)
+    if kind != "bathroom" and rng.random() < 0.55 + 0.4 * style.form.softness:
+        curtain_pairs(job)
+    PROGRAMME[kind](job)
+    for name, middle, rooms in WALL_FEATURES.get(style.family, ()):
+        if kind in rooms.split():
+            wall_piece(job, name, middle)
+    fill(job, kind)
+    for _ in range(2 if kind not in ("bathroom", "corridor", "kitchen", "dining") else 0):
+        if job.chance(0.9) and middle_piece(job, kind) is None:
+            break
+    light(job)
+    hang_pictures(job, kind)
+    return layout.placed
+
+
+def lamped(style: Style, kind: str, seed: int) -> Style:
+    """The style with the sort of lamp that rooms of a kind have in this house."""
+    sorts = lamp_sorts(style, kind)
+    pick = np.random.default_rng(np.random.SeedSequence([seed, list(PROGRAMME).index(kind), 5])).integers(len(sorts))
+    return with_lamp(style, sorts[int(pick)])
+
+
+def wanted(site: Site, kind: str, density: float) -> int:
+    """How many pieces of furniture (without pictures, curtains, lamps and clutter) a room should hold."""
+    base = {"bathroom": 4, "corridor": 2, "kitchen": 6, "dining": 8}.get(kind, 5)
+    return round((base + 0.22 * min(site.polygon.area, 45.0)) * (0.3 + 0.7 * density))
+
+
+def fill(job: Job, kind: str) -> None:
+    """Pieces along the walls until the room holds enough."""
+    absent = ABSENT.get(job.style.family, frozenset())
+    special = [piece for piece, rooms in FLAVOUR.get(job.style.family, ()) if kind in rooms.split()]
+    special = special if job.layout.site.polygon.area > 9 else special[:1]
+    usual = [piece for piece in AT_WALL[kind] if piece not in absent]
+    if kind not in ("library", "bathroom", "bedroom"):
+        head = usual[:1]
+        usual = head + [usual[1:][k] for k in job.rng.permutation(len(usual) - 1)] if usual else []
+    target = wanted(job.layout.site, kind, job.density)
+    for name in [*special, *usual]:
+        if sum(p.piece.support in ("floor", "flat") for p in job.layout.placed) >= target and name not in special:
+            break
+        if job.rng.random() > 0.45 + 0.55 * job.density or (
+            name in ONCE and any(p.piece.label == name for p in job.layout.placed)
+        ):
+            continue
+        where = "corner" if name in CORNERS else "any"
+        job.at_wall(name, where=where)
+
+
+def light(job: Job) -> None:
+    """A lamp over the middle of the floor, two in a long or large room, where none hangs yet."""
+    site = job.layout.site
+    hanging = [p for p in job.layout.placed if p.piece.support == "ceiling"]
+    if hanging and site.polygon.area < 30:
+        return
+    k = int(np.argmax(site.lengths))
+    along = site.directions[k]
+    points = [np.array(site.centre)]
+    if float(site.lengths[k]) > 6.5 or site.polygon.area > 32:
+        reach = 0.25 * float(site.lengths[k])
+        points = [points[0] - reach * along, points[0] + reach * along]
+    for point in points:
+        if all(math.hypot(p.x - point[0], p.y - point[1]) > 1.8 for p in hanging):
+            hang(job, float(point[0]), float(point[1]))
+
+
+def hang_pictures(job: Job, kind: str) -> None:
+    """Pictures over what stands at the walls and between it, a mirror or tapestry or clock among them; sconces in grand rooms."""
+    if kind == "bathroom":
+        return
+    style, rng = job.style, job.rng
+    own, hung = OVER_FURNITURE.get(style.family, ()), 0
+    for placed in list(job.layout.placed):
+        name = placed.piece.label
+        if name in (
+            "bed",
+            "single bed",
+            "sofa",
+            "console table",
+            "sideboard",
+            "fireplace",
+            "dresser",
+            "bench",
+            "altar table",
+            "desk",
+        ) and job.chance(0.85):
+            mirror = name in ("console table", "dresser", "fireplace") and rng.random() < 0.55
+            usual = "mirror" if mirror else "picture"
+            for piece in (*own[hung % max(len(own), 1) :], usual):
+                if on_wall(job, piece, placed, z=1.25):
+                    hung += 1
+                    break
+    area = job.layout.site.polygon.area
+    extra = round(min(1 + area / 14, 4) * job.density)
+    choices = [
+        "picture",
+        "picture",
+        "wall clock" if style.form.ornament < 0.6 else "picture",
+        "wall shelf" if style.form.ornament < 0.5 else "picture",
+    ]
+    if style.family in ("gothic", "rustic", "moroccan", "baroque"):
+        choices[1] = "tapestry"
+    for k in range(extra):
+        name = choices[k % len(choices)]
+        if kind == "kitchen" and name == "tapestry":
+            name = "picture"
+        wall_piece(job, name, 1.95 if name == "wall clock" else 1.6)
+    if kind in ("hall", "corridor", "dining", "library", "gallery") and style.form.ornament > 0.4:
+        for _ in range(2):
+            wall_piece(job, "wall sconce", 1.75)
+
+
+def scene_object(placed: Placed, room: int) -> SceneObject:
+    """A placed piece as the scene's record, in world space."""
+    c, s = math.cos(placed.yaw), math.sin(placed.yaw)
+    transform = np.array([[c, -s, 0.0, placed.x], [s, c, 0.0, placed.y], [0.0, 0.0, 1.0, placed.z], [0.0, 0.0, 0.0, 1.0]])
+    piece = placed.piece
+    return SceneObject(
+        label=piece.label,
+        room=room,
+        support=piece.support,
+        vertices=piece.vertices @ transform[:3, :3].T + transform[:3, 3],
+        faces=piece.faces,
+        face_slot=piece.face_slot,
+        slots=piece.slots,
+        slot_colors=piece.slot_colors,
+        T_world_object=transform,
+        size=piece.size,
+        emission=piece.emission,
+    )

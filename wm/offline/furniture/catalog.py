@@ -1,0 +1,59 @@
+"""Every kind of furniture by name, and the one door through which pieces are built."""
+
+import numpy as np
+
+from wm.offline.furniture import (
+    bath,
+    beds,
+    clockwork,
+    greenery,
+    kitchen,
+    lighting,
+    sculpture,
+    seating,
+    storage,
+    tables,
+    tabletop,
+    textiles,
+    walls,
+)
+from wm.offline.furniture.piece import Kind, Piece, Size, assemble
+from wm.offline.style.finish import Style
+
+KINDS: dict[str, Kind] = {
+    **seating.KINDS,
+    **tables.KINDS,
+    **beds.KINDS,
+    **storage.KINDS,
+    **lighting.KINDS,
+    **textiles.KINDS,
+    **walls.KINDS,
+    **greenery.KINDS,
+    **sculpture.KINDS,
+    **tabletop.KINDS,
+    **kitchen.KINDS,
+    **bath.KINDS,
+    **clockwork.KINDS,
+}
+
+
+def make_piece(kind: str, style: Style, rng: np.random.Generator, *, size: Size | None = None) -> Piece:
+    """One piece of a kind in its own frame.
+
+    Args:
+      kind: key of KINDS; it is also the piece's label.
+      size: nominal width, depth and height in metres; drawn from the kind's range where None. Legs that splay, cornices and
+        taps may go a few centimetres beyond it: the piece's `size` is what was built.
+
+    Raises:
+      KeyError: no such kind.
+    """
+    if kind not in KINDS:
+        raise KeyError(f"unknown furniture kind {kind!r}; kinds: {', '.join(KINDS)}")
+    entry = KINDS[kind]
+    if size is None:
+        share = rng.random(3)
+        low, high = np.array(entry.low), np.array(entry.high)
+        w, d, h = (low + share * (high - low)).tolist()
+        size = (w, d, h)
+    return assemble(kind, entry.support, entry.build(style, rng, size), style)

@@ -1,0 +1,179 @@
+"""What the offline image model has in mind where its condition leaves something open: other worlds over the same structure.
+
+An imagination is numbered; number 0 is the scene itself, the one whose held-out views count as the truth. The others differ in
+what is open: the finish of walls, floors and ceilings, and either the furniture inside each object's box or all of the furniture.
+A view's seed picks one, so that views disagree as those of an image model do, and every choice is a world that can be lit,
+which is baked once a room and not once a view.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from wm.geometry.plan.site import room_site
+from wm.offline.arrangement.arrange import furnish_site, scene_object
+from wm.offline.arrangement.inventory import ABSENT, FLAVOUR
+from wm.offline.arrangement.room_type import room_type
+from wm.offline.furniture import KINDS, bath, kitchen, make_piece
+from wm.offline.style.finish import Finish, Rgb, Style, Surfaces
+from wm.offline.style.sheet import mix
+from wm.offline.style.theme import style_of
+from wm.synth.backends import SceneContext
+from wm.types import SceneObject
+
+WALLS = (("paint", 0.1), ("plaster", 1.0), ("wallpaper_damask", 0.7), ("wallpaper_stripe", 0.14), ("panelling", 0.6),
+         ("brick", 0.24), ("stone_blocks", 0.6), ("wood_planks", 0.16))  # fmt: skip
+FLOORS = (("wood_planks", 0.16), ("herringbone", 0.5), ("parquet", 0.45), ("stone_tiles", 0.6), ("checker_tiles", 0.5),
+          ("terracotta", 0.3), ("marble", 0.8), ("carpet", 0.01))  # fmt: skip
+CEILINGS = (("paint", 0.1), ("plaster", 1.0), ("wood_planks", 0.2))
+"""Materials with the length of their pattern, metres, that a model may dress a surface in."""
+WOODEN = frozenset({"panelling", "wood_planks", "herringbone", "parquet"})
+"""Materials in the colour of the theme's woods."""
+RIVALS = 5
+"""Kinds of the most fitting proportions of which one takes an object's place."""
+STRETCH = 2.2
+"""Ratio of sides up to which a piece is stretched to fill a box."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Imagination:
+    """Which world: numbers of its finish and of its furniture, 0 for the scene's own."""
+
+    surfaces: int = 0
+    furniture: int = 0
+    boxed: bool = False  # other furniture in the scene's boxes; otherwise other furniture in other places
+
+
+SCENE = Imagination()
+
+
+def imagined_scene(context: SceneContext, which: Imagination) -> SceneContext:
+    """The scene of a world, which its finish does not change; without other furniture the scene itself."""
+    if not which.furniture:
+        return context
+    things = boxed_furniture if which.boxed else other_furniture
+    return dataclasses.replace(context, objects=things(context, which.furniture))
+
+
+def imagined_style(context: SceneContext, which: Imagination) -> Style:
+    """The style that a world is finished in, which its furniture does not change."""
+    style = style_of(context.theme)
+    return refinished(style, _dice(context, which.surfaces, 1)) if which.surfaces else style
+
+
+def refinished(style: Style, rng: np.random.Generator) -> Style:
+    """The style with other walls, floors and ceilings in every type of room, in colours of its own palette."""
+    return dataclasses.replace(style, rooms=tuple((kind, _surfaces(surfaces, style, rng)) for kind, surfaces in style.rooms))
+
+
+def _surfaces(own: Surfaces, style: Style, rng: np.random.Generator) -> Surfaces:
+    wall, floor = (_finish(finish, table, style, rng) for finish, table in ((own.wall, WALLS), (own.floor, FLOORS)))
+    tint = style.accents[int(rng.integers(len(style.accents)))]
+    ceiling = _finish(own.ceiling, CEILINGS, style, rng)
+    trim = dataclasses.replace(own.trim, colors=tuple(mix(color, tint, 0.35) for color in own.trim.colors))
+    return Surfaces(wall=wall, floor=floor, ceiling=ceiling, trim=trim)
+
+
+def _finish(own: Finish, table: tuple[tuple[str, float], ...], style: Style, rng: np.random.Generator) -> Finish:
+    """Another material than the own, as light or dark as its surface is on the whole."""
+    choices = [entry for entry in table if entry[0] != own.material]
+    material, scale = choices[int(rng.integers(len(choices)))]
+    wood = style.slot(("wood", "dark_wood", "light_wood")[int(rng.integers(3))]).colors[0]
+    accent = style.accents[int(rng.integers(len(style.accents)))]
+    base = wood if material in WOODEN else mix(own.colors[0], accent, float(rng.uniform(0.2, 0.55)))
+    darker, lighter = mix(base, (0.0, 0.0, 0.0), 0.35), mix(base, (1.0, 1.0, 1.0), 0.3)
+    return Finish(material, (base, darker, lighter), scale, roughness=own.roughness, wear=own.wear)
+
+
+def restyled(style: Style, rng: np.random.Generator) -> Style:
+    """The style as another maker of furniture understands it: other legs, backs and fronts, and other colours in every slot."""
+    form = dataclasses.replace(
+        style.form,
+        legs=str(rng.choice(["turned", "tapered", "straight", "cabriole", "hairpin", "column", "slab"])),
+        back=str(rng.choice(["pointed_arch", "round_arch", "spindle", "slats", "panel", "klismos", "plain", "wave"])),
+        panel=str(rng.choice(["pointed", "raised", "flat", "arched", "slats", "plain"])),
+        lamp=str(rng.choice(["cone", "drum", "globe", "lantern", "candle", "tripod"])),
+        softness=float(rng.uniform(0.1, 0.9)),
+    )
+    slots = tuple((name, _recolored(finish, style.accents, rng)) for name, finish in style.slots)
+    accents = tuple(style.accents[int(k)] for k in rng.permutation(len(style.accents)))
+    return dataclasses.replace(style, form=form, slots=slots, accents=accents)
+
+
+def _recolored(finish: Finish, accents: tuple[Rgb, ...], rng: np.random.Generator) -> Finish:
+    accent, share = accents[int(rng.integers(len(accents)))], float(rng.uniform(0.25, 0.6))
+    if finish.material == "glow":
+        return finish
+    return dataclasses.replace(finish, colors=tuple(mix(color, accent, share) for color in finish.colors))
+
+
+def boxed_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ...]:
+    """For every object of the scene another that fills its box: of another kind, style and colours."""
+    rng = _dice(context, number, 2)
+    style = restyled(style_of(context.theme), rng)
+    rooms = [room_type(room.name) for room in context.plan.rooms]
+    return tuple(_stand_in(thing, rooms[thing.room], style, rng) for thing in context.objects)
+
+
+def _stand_in(thing: SceneObject, room: str, style: Style, rng: np.random.Generator) -> SceneObject:
+    rotation, origin = thing.T_world_object[:3, :3], thing.T_world_object[:3, 3]
+    local = (thing.vertices - origin) @ rotation
+    low, high = local.min(axis=0), local.max(axis=0)
+    size = np.maximum(high - low, 1e-3)
+    kinds = _rivals(thing, size, room, style.family)
+    kind = kinds[int(rng.integers(len(kinds)))]
+    width, depth, tall = _natural(kind, size).tolist()
+    piece = make_piece(kind, style, rng, size=(width, depth, tall))
+    start = piece.vertices.min(axis=0)
+    stretch = (high - low) / np.maximum(piece.vertices.max(axis=0) - start, 1e-6)
+    vertices = (low + (piece.vertices - start) * stretch) @ rotation.T + origin
+    return SceneObject(
+        label=piece.label, room=thing.room, support=thing.support, vertices=vertices, faces=piece.faces,
+        face_slot=piece.face_slot, slots=piece.slots, slot_colors=piece.slot_colors,
+        T_world_object=thing.T_world_object, size=high - low, emission=piece.emission,
+    )  # fmt: skip
+
+
+def _natural(kind: str, size: np.ndarray) -> np.ndarray:
+    """The size nearest to a wanted one that a kind is made in."""
+    return np.clip(size, KINDS[kind].low, KINDS[kind].high)
+
+
+def _rivals(thing: SceneObject, size: np.ndarray, room: str, family: str) -> list[str]:
+    """The kinds that might fill a box of this size, none of them the thing's own: those that need the least stretching."""
+    others = [kind for kind in KINDS if kind != thing.label and _belongs(kind, room, family)]
+    others = [kind for kind in others if KINDS[kind].support == thing.support] or others
+
+    def stretch(kind: str) -> float:
+        return float(np.abs(np.log(_natural(kind, size) / size)).max())
+
+    ranked = sorted(others, key=lambda kind: (stretch(kind), kind))
+    fitting = [kind for kind in ranked if stretch(kind) <= np.log(STRETCH)]
+    return (fitting or ranked[:1])[:RIVALS]
+
+
+def _belongs(kind: str, room: str, family: str) -> bool:
+    """Whether a family would have a kind of furniture in a type of room."""
+    if kind in ABSENT.get(family, ()):
+        return False
+    if kind in bath.KINDS or kind in kitchen.KINDS:
+        return room == ("bathroom" if kind in bath.KINDS else "kitchen")
+    flavours = {name for name, pieces in FLAVOUR.items() if any(piece == kind for piece, _ in pieces)}
+    return not flavours or family in flavours
+
+
+def other_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ...]:
+    """Every room furnished anew, as if nothing had ever stood there."""
+    rng = _dice(context, number, 3)
+    style = restyled(style_of(context.theme), rng)
+    seed = int(rng.integers(2**31))
+    placed = [
+        scene_object(piece, index)
+        for index, room in enumerate(context.plan.rooms)
+        for piece in furnish_site(room_site(context.plan, index), room_type(room.name), style, seed=seed, room=index)
+    ]
+    return tuple(placed)
+
+
+def _dice(context: SceneContext, number: int, purpose: int) -> np.random.Generator:
+    return np.random.default_rng(np.random.SeedSequence([context.seed, number, purpose, 0x13A6]))

@@ -1,0 +1,265 @@
+"""The offline image model: it paints worlds of wm.offline.world, and behaves as an image model does.
+
+Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it invents is a whole world (wm.offline.image
+.imagination), picked by the view's seed, seen from the view's camera as W:
+    out = W + known * lowpass(X - W) + (1 - known) * drift.
+- Objects that X shows textured are the scene's; a grey box is filled with other furniture; where X shows no objects, the room is
+  furnished in some other way.
+- Walls, floor and ceiling are finished as the scene's where X shows any of their texture; otherwise in some other way that the
+  theme allows. Someone has to begin: where the scaffold hands texture on, a room's bootstrap views settle how it is finished, and
+  that finish is the scene's. Where it hands none on nobody would see what they settled, and they invent as every other view does.
+- Asked to furnish an empty room, it has the scene's own furniture in mind, and finishes the room as the scene is.
+- Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
+  while the world's fine detail is restored.
+Imperfections (wm.offline.image.imperfections) and violations of the structure (wm.offline.image.violations) come on top, at the
+strengths of ImageConfig; with all of them at 0 and nothing left open the image is the exact world, the truth of held-out views.
+"""
+
+import dataclasses
+import os
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+from scipy.ndimage import gaussian_filter
+
+from wm.geometry.rays.pinhole import camera_center, camera_rays
+from wm.host import cores
+from wm.offline.image.imagination import SCENE, Imagination, imagined_scene, imagined_style
+from wm.offline.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
+from wm.offline.image.violations import Violation, draw_violation
+from wm.offline.world.room import bake_settings
+from wm.offline.world.worker import Recipe, WorkerWorld
+from wm.offline.world.world import Shot, World
+from wm.schema import ImageConfig
+from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
+from wm.types import OUTSIDE, Camera, View
+
+SURE = 0.85
+"""How far known a pixel must be before its tone counts: below, the condition is part grey depth."""
+RECOGNISED = 0.01
+"""Share of an image's structure that must be known for the model to recognise the room's finish and go on in it."""
+SHOTS_AT_ONCE, KEPT_SHOTS = 2, 4
+"""Views whose share of the work that no condition changes is done side by side, and how many of them are kept."""
+TONE_SCALE = 5 / 688
+"""Standard deviation of the low pass, as a share of the image's width: about a texel of 2 cm at two metres."""
+AGREEMENT = 0.03
+"""Relative difference of depth up to which the condition is taken to show what the world has there."""
+INVENTION = 4.0
+"""How many times stronger an object that the condition does not show drifts than a wall."""
+PLANES = 0.05
+"""Metres between planes of the structure that count as two surfaces: a pane lies deeper than that in its wall."""
+ELBOW_ROOM = 0.35
+"""Metres between a camera and imagined furniture: a model draws a view, not the inside of a wardrobe."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Scenery:
+    """A world under the camera, and the scene it is made of."""
+
+    context: SceneContext
+    world: World | WorkerWorld
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ProceduralImages:
+    """The backend. A world is made when a view first shows it, and its rooms are dressed and lit when one first sees them."""
+
+    scene: SceneContext
+    make_world: Callable[[SceneContext, Imagination], World | WorkerWorld]  # of an imagined scene, in its finish
+    config: ImageConfig
+    _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
+    _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
+    _scenes: dict[tuple[int, bool], SceneContext] = dataclasses.field(default_factory=dict)  # by what tells furniture apart
+    _sceneries: dict[Imagination, Scenery] = dataclasses.field(default_factory=dict)
+    _lock: threading.RLock = dataclasses.field(default_factory=threading.RLock)
+    _left_open: threading.Event = dataclasses.field(default_factory=threading.Event)  # by some condition so far
+
+    def prefetch(self, views: Sequence[View]) -> None:
+        """Starts on the views that come next: what they show of the scene, unless conditions leave open what that is."""
+        for view in () if self._left_open.is_set() else views[:KEPT_SHOTS]:
+            self._shot(SCENE, view)
+
+    def generate(self, request: ImageRequest) -> ImageResult:
+        """What the model makes of the condition; same request, same bytes.
+
+        Raises:
+          ValueError: the condition's images are not of the camera's size.
+        """
+        _check_size(request.condition, request.view.camera)
+        which = SCENE if request.task == "furnish" else self._imagine(request)
+        scenery, shot = self.scenery(which), self._shot(which, request.view).result()
+        gone_wrong = self._violation(request, scenery, shot)
+        shot = shot if gone_wrong is None else scenery.world.shoot(request.view.camera, gone_wrong.edit)
+        rgb = self._painted(request, shot)
+        return ImageResult(
+            rgb=np.clip(rgb, 0, 1).astype(np.float32),
+            drawn_depth=shot.gbuffer.depth.copy(),
+            drawn_object=shot.object.copy(),
+            drawn_labels=scenery.world.labels,
+        )
+
+    def truth(self, view: View) -> Float[np.ndarray, "h w 3"]:
+        """The exact world from a view's camera."""
+        return np.clip(self.scenery(SCENE).world.shoot(view.camera).rgb, 0, 1)
+
+    def scenery(self, which: Imagination) -> Scenery:
+        """A world, made now if it is not there yet."""
+        with self._lock:
+            if which not in self._sceneries:
+                context = self._imagined(which)
+                self._sceneries[which] = Scenery(context, self.make_world(context, which))
+            return self._sceneries[which]
+
+    def close(self) -> None:
+        """Ends the processes of its worlds, and its threads as soon as they are done; what they are at is not waited for."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        for scenery in self._sceneries.values():
+            if isinstance(scenery.world, WorkerWorld):
+                scenery.world.close()
+
+    def _imagine(self, request: ImageRequest) -> Imagination:
+        """The world that a request is answered with: the scene's own in all that the condition shows, and what the seed says."""
+        condition, count = request.condition, self.config.imaginations
+        if count == 0:
+            return SCENE
+        first = np.random.default_rng(_stream(request.seed, 0x1DEA)).permutation(count) + 1
+        settles = condition.wall_texture and request.view.kind == "bootstrap"
+        surfaces = 0 if settles or _recognised(condition) else int(first[0])
+        if condition.objects == "textured":
+            which = Imagination(surfaces=surfaces)
+        elif condition.objects == "boxes":
+            which = Imagination(surfaces=surfaces, furniture=int(first[0]), boxed=True)
+        else:
+            rooms = [Imagination(surfaces=surfaces, furniture=int(k)) for k in first]
+            which = max(rooms, key=lambda one: min(_air(self._imagined(one), request.view), ELBOW_ROOM))
+        if which != SCENE:
+            self._left_open.set()
+        return which
+
+    def _imagined(self, which: Imagination) -> SceneContext:
+        """The scene of a world, furnished now if it is not yet. Which world a view is shown is chosen by it: no world is made."""
+        with self._lock:
+            furniture = (which.furniture, which.boxed)
+            if furniture not in self._scenes:
+                self._scenes[furniture] = imagined_scene(self.scene, which)
+            return self._scenes[furniture]
+
+    def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
+        rng = np.random.default_rng(_stream(request.seed, 0xBAD))
+        objects = request.condition.objects != "none" or request.task == "furnish"
+        return draw_violation(self.config, scenery.context, request.view, shot.gbuffer, shot.object, rng, objects=objects)
+
+    def _painted(self, request: ImageRequest, shot: Shot) -> Float[np.ndarray, "h w 3"]:
+        """The shot in the tone that the condition has, with the model's imperfections."""
+        condition, config = request.condition, self.config
+        rng = np.random.default_rng(_stream(request.seed, 0x1A6E))
+        invented = drifted(shot.rgb, config.drift, rng)
+        shown = _shown(request, shot)
+        objects = shot.object != OUTSIDE
+        rgb = np.where(
+            (objects & ~shown)[..., None], drifted_apart(shot.rgb, shot.object, config.drift * INVENTION, rng), invented
+        )
+        rgb = np.where((objects & shown)[..., None], shot.rgb, rgb)
+        sure = np.clip((condition.known - SURE) / (1 - SURE), 0, 1)
+        known = np.where(objects | ~shown, 0, sure).astype(np.float32)
+        rgb = _keep_tone(rgb, shot.rgb, condition.rgb, known)
+        rng = np.random.default_rng(_stream(request.seed, 0xF1A3))
+        rgb = strayed(rgb, _surfaces_of(shot, request.view.camera), config.phase, rng)
+        return softened(exposed(rgb, config.exposure, rng), config.softness)
+
+    def _shot(self, which: Imagination, view: View) -> Future[Shot]:
+        """What a world shows the view, under way or done; the latest few are kept, so that a further attempt costs no other."""
+        camera, scenery = view.camera, self.scenery(which)
+        arrays = (np.asarray(x, np.float64).tobytes() for x in (camera.T_cam_world, camera.focal, camera.principal))
+        key = (which, *arrays, camera.width, camera.height)
+        if key not in self._shots:
+            self._shots[key] = self._pool.submit(scenery.world.shoot, camera)
+            while len(self._shots) > KEPT_SHOTS:
+                del self._shots[next(iter(self._shots))]
+        return self._shots[key]
+
+
+def make(config: ImageConfig, context: SceneContext) -> ProceduralImages:
+    """The offline image backend of a scene. Raises: ValueError for a texel size that is not a positive length."""
+    settings = bake_settings(config.texel_size)
+    apart = config.worker and cores() > 1 and os.name == "posix"
+
+    def make_world(scene: SceneContext, which: Imagination) -> World | WorkerWorld:
+        style = imagined_style(context, which)
+        recipe = Recipe(scene, supersampling=config.supersampling, settings=settings, style=style)
+        return WorkerWorld(recipe, lanes=SHOTS_AT_ONCE) if apart else recipe.make()
+
+    return ProceduralImages(scene=context, make_world=make_world, config=config)
+
+
+def lowpass(image: Float[np.ndarray, "h w c"], weight: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w c"]:
+    """Weighted gaussian mean at the scale of TONE_SCALE; 0 where no weight is near."""
+    sigma = max(TONE_SCALE * image.shape[1], 0.6)
+    total = gaussian_filter(weight, sigma, mode="nearest", truncate=3.0)
+    blurred = gaussian_filter(image * weight[..., None], (sigma, sigma, 0), mode="nearest", truncate=3.0)
+    return blurred / np.maximum(total, 1e-4)[..., None]
+
+
+def _keep_tone(invented: np.ndarray, world: np.ndarray, shown: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """Where known, the world with the low frequencies of what is shown; elsewhere what was invented."""
+    if not known.any():
+        return invented
+    kept = world + lowpass(shown - world, known)
+    return invented + known[..., None] * (kept - invented)
+
+
+def _recognised(condition: Condition) -> bool:
+    """Whether the condition shows enough of the structure's texture to tell how the room is finished."""
+    structure = condition.depth > 0
+    if condition.object is not None:
+        structure &= ~condition.object
+    return float(np.mean((condition.known > 0.5) & structure)) >= RECOGNISED
+
+
+def _shown(request: ImageRequest, shot: Shot) -> Bool[np.ndarray, "h w"]:
+    """Pixels at which the condition shows the surface that was drawn; of boxes' surfaces there is nothing to show.
+
+    To furnish, what lies flat on the empty room's surface (a rug, a picture) is as decided as that surface.
+    """
+    condition, depth = request.condition, shot.gbuffer.depth
+    same = (condition.depth > 0) & (np.abs(condition.depth - depth) <= AGREEMENT * np.maximum(depth, 0.1))
+    if condition.object is not None:
+        same &= condition.object == (shot.object != OUTSIDE)
+    own = condition.objects == "textured" or request.task == "furnish"
+    return same if own else same & (shot.object == OUTSIDE)
+
+
+def _surfaces_of(shot: Shot, camera: Camera) -> Int[np.ndarray, "h w"]:
+    """A number for each object, and for each plane of the structure to within PLANES."""
+    normal = shot.gbuffer.normal.astype(np.float64)
+    place = camera_center(camera) + shot.gbuffer.depth[..., None] * camera_rays(camera).reshape(normal.shape)
+    offset = np.round((normal * place).sum(axis=-1) / PLANES + 0.3).astype(np.int64)
+    plane = np.round(normal * 2).astype(np.int64) @ np.array([1, 5, 25]) + 125 * offset
+    return np.where(shot.object == OUTSIDE, plane - 10**9, shot.object)
+
+
+def _air(context: SceneContext, view: View) -> float:
+    """Metres from a camera to the nearest box of furniture, 0 inside one."""
+    eye = camera_center(view.camera)
+    far = [np.inf]
+    for thing in context.objects:
+        if thing.room == view.room:
+            local = (eye - thing.T_world_object[:3, 3]) @ thing.T_world_object[:3, :3] - np.array([0, 0, thing.size[2] / 2])
+            far.append(float(np.linalg.norm(np.maximum(np.abs(local) - thing.size / 2, 0))))
+    return min(far)
+
+
+def _stream(seed: int, purpose: int) -> np.random.SeedSequence:
+    return np.random.SeedSequence([seed, purpose])
+
+
+def _check_size(condition: Condition, camera: Camera) -> None:
+    size = (camera.height, camera.width)
+    if condition.rgb.shape[:2] != size or condition.known.shape != size or condition.depth.shape != size:
+        raise ValueError(
+            f"the condition is {condition.rgb.shape[:2]}, known {condition.known.shape}, depth {condition.depth.shape}; "
+            f"the view's camera asks for {size}"
+        )

@@ -1,0 +1,216 @@
+"""Doors, passages and windows for a massing: every room reached, furniture walls left whole, light from outside.
+
+Doors stand near a corner of the smaller room, so that its walls stay free; passages in the middle of their wall. Lengths
+are whole centimetres along a wall's line.
+"""
+
+import dataclasses
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from jaxtyping import Int
+
+from wm.offline.language.building import Building, draw
+from wm.offline.language.facades import Side, Stretch, sides_of, stretches_of
+from wm.offline.language.programme import CIRCULATION, PRIVATE, PUBLIC, WET, Space
+
+JAMB = 38  # cm from a wall's centre line to a door: 0.3 m of wall beside it
+TIGHT = 24  # where no more room is
+APART = 30  # cm of wall between two openings
+CORNER = 50  # cm from a window to the end of its wall
+OUTLOOK = 120  # cm of open air that a window is worth having for
+
+# Pairs of kinds that are joined where they touch, beside the way every room has to the core.
+_FRIENDS = {
+    frozenset(pair)
+    for pair in (
+        ("kitchen", "dining"), ("kitchen", "living"), ("living", "dining"), ("living", "conservatory"), ("living", "library"),
+        ("dining", "conservatory"), ("dining", "great hall"), ("library", "study"), ("living", "leisure"), ("living", "ballroom"),
+        ("hall", "living"),
+    )
+}  # fmt: skip
+_JOINED = 0.7  # probability that such a pair is
+
+
+@dataclasses.dataclass(frozen=True)
+class Hole:
+    """An opening from `low` to `high` along its side's line."""
+
+    kind: str
+    side: Side
+    behind: Side | None
+    low: int
+    high: int
+    height: int
+    sill: int
+
+
+def place_openings(
+    polygons: Sequence[Int[np.ndarray, "_ 2"]],
+    spaces: Sequence[Space],
+    ceilings: Sequence[int],
+    building: Building,
+    rng: np.random.Generator,
+) -> list[Hole]:
+    """Openings for every room, doors and passages first.
+
+    Args:
+      polygons: [k, 2] of each room, cm, counter-clockwise, axis-aligned.
+      spaces: what each room is.
+      ceilings: height of each room, cm.
+    """
+    stretches = stretches_of(sides_of(polygons))
+    shared = [stretch for stretch in stretches if stretch.behind is not None]
+    holes: list[Hole] = []
+    tree = _tree(shared, spaces, rng)
+    for stretch in tree:
+        holes.append(_door(stretch, spaces, ceilings, building, holes, rng))
+    joined = {_rooms(stretch) for stretch in tree}
+    for stretch in shared:
+        friends = frozenset(spaces[room].kind.name for room in _rooms(stretch)) in _FRIENDS
+        if friends and _rooms(stretch) not in joined and _usable(stretch, JAMB) >= 90 and rng.random() < _JOINED:
+            joined.add(_rooms(stretch))
+            holes.append(_door(stretch, spaces, ceilings, building, holes, rng))
+    shapes = np.array([shapely.Polygon(polygon) for polygon in polygons])
+    outer = [stretch for stretch in stretches if stretch.behind is None]
+    for room in range(len(spaces)):
+        holes += _windows([s for s in outer if s.side.room == room], shapes, spaces[room], ceilings[room], building, rng)
+    return holes
+
+
+def _rooms(stretch: Stretch) -> frozenset[int]:
+    assert stretch.behind is not None
+    return frozenset((stretch.side.room, stretch.behind.room))
+
+
+def _usable(stretch: Stretch, margin: int) -> int:
+    return stretch.high - stretch.low - 2 * margin
+
+
+def _tree(shared: Sequence[Stretch], spaces: Sequence[Space], rng: np.random.Generator) -> list[Stretch]:
+    """The walls that doors must go through to reach every room from the first hub, by the most natural ways (Prim)."""
+    hub = min(range(len(spaces)), key=lambda i: (spaces[i].kind.zone != CIRCULATION, spaces[i].kind.rank, i))
+    costs = [_awkward(stretch, spaces, hub) + 0.5 * rng.random() for stretch in shared]
+    reached, tree = {hub}, []
+    while True:
+        ways = [k for k, way in enumerate(shared) if len(_rooms(way) & reached) == 1 and _usable(way, TIGHT) >= 90]
+        if not ways:
+            return tree
+        best = shared[min(ways, key=costs.__getitem__)]
+        tree.append(best)
+        reached |= _rooms(best)
+
+
+def _awkward(stretch: Stretch, spaces: Sequence[Space], hub: int) -> float:
+    """How odd a way through this wall would be; the hub of a house without a hall is as good as one."""
+    a, b = (spaces[room].kind for room in sorted(_rooms(stretch)))
+    zones = {a.zone, b.zone}
+    tight = 1.0 if _usable(stretch, JAMB) < 90 else 0.0
+    if CIRCULATION in zones or hub in _rooms(stretch):
+        return tight
+    if zones == {PUBLIC}:
+        return 2.0 + tight
+    if zones == {PRIVATE, WET} or {a.name, b.name} == {"kitchen", "service"}:
+        return 3.0 + tight
+    return (6.0 if PUBLIC in zones else 9.0) + tight
+
+
+def _door(
+    stretch: Stretch,
+    spaces: Sequence[Space],
+    ceilings: Sequence[int],
+    building: Building,
+    holes: Sequence[Hole],
+    rng: np.random.Generator,
+) -> Hole:
+    """A door or passage in this wall where it disturbs the fewest other openings."""
+    a, b = (spaces[room].kind for room in sorted(_rooms(stretch)))
+    ceiling = min(ceilings[room] for room in _rooms(stretch))
+    both_lead = a.zone == b.zone == CIRCULATION
+    may_open = {a.zone, b.zone} <= {CIRCULATION, PUBLIC}
+    margin = JAMB if _usable(stretch, JAMB) >= 90 else TIGHT
+    usable = _usable(stretch, margin)
+    width, height = (round(100 * value) for value in building.door)
+    kind = "door"
+    if both_lead or (may_open and usable >= 150 and rng.random() < building.openness):
+        kind = "passage"
+        width = min(usable, 240 if both_lead else round(usable * rng.uniform(0.4, 0.7) / 5) * 5, 320)
+        width, height = max(width, min(usable, 140)), height + 20
+    width = min(width, usable)
+    low, high = stretch.low + margin, stretch.high - margin - width
+    corners = [low, high] if kind == "door" else [(low + high) // 10 * 5, low, high]
+    spare = [low + (high - low) * k // 40 * 5 for k in range(1, 8)]
+    tries = [*corners, *[min(max(at, low), high) for at in spare]]
+    costs = [
+        _disturbs(stretch, at, at + width, holes) + (0.0 if k < len(corners) else 0.6) + 0.3 * float(rng.random())
+        for k, at in enumerate(tries)
+    ]
+    at = tries[int(np.argmin(costs))]
+    return Hole(kind, stretch.side, stretch.behind, at, at + width, min(height, ceiling - 20), 0)
+
+
+def _disturbs(stretch: Stretch, low: int, high: int, holes: Sequence[Hole]) -> float:
+    """How much an opening here would be in the way of others: overlaps, half facing ones, ones around the corner."""
+    cost, side = 0.0, stretch.side
+    rooms = _rooms(stretch)
+    for hole in holes:
+        near = hole.behind is not None and bool(rooms & {hole.side.room, hole.behind.room})
+        if hole.side.axis == side.axis and hole.side.at == side.at:
+            if low < hole.high + APART and hole.low < high + APART:
+                cost += 100.0
+        elif near and hole.side.axis == side.axis and abs(hole.side.at - side.at) <= 300:
+            overlap = min(high, hole.high) - max(low, hole.low)
+            aligned = abs(low + high - hole.low - hole.high) <= 10
+            cost += 2.0 if overlap > 0 and not aligned else 0.0
+        elif near and hole.side.axis != side.axis:
+            along = max(low - hole.side.at, hole.side.at - high, 0)
+            across = max(hole.low - side.at, side.at - hole.high, 0)
+            cost += 1.5 if math.hypot(along, across) < 110 else 0.0
+    return cost
+
+
+def _windows(
+    outer: Sequence[Stretch],
+    shapes: np.ndarray,
+    space: Space,
+    ceiling: int,
+    building: Building,
+    rng: np.random.Generator,
+) -> list[Hole]:
+    """Evenly spaced windows on the longest outer walls, as many as the floor area asks for."""
+    zone = space.kind.zone
+    width = round(100 * draw(building.window, rng))
+    sill, head = round(100 * building.sill), min(round(100 * building.head), ceiling - 25)
+    if zone == WET:
+        width, sill = min(width, 80), min(140, head - 60)  # small and above eye level for those who sit
+    elif space.kind.name in ("kitchen", "service"):
+        width, sill = min(width, 150), max(sill, 100)  # above the worktop
+    wanted = 1 if zone == WET else max(1, math.ceil(space.area / 7))
+    holes: list[Hole] = []
+    for stretch in sorted(outer, key=lambda s: (s.low - s.high, s.side.start)):
+        clear = stretch.high - stretch.low - 2 * CORNER
+        fitting = int((clear + 100 * building.spacing) // (width + 100 * building.spacing))
+        each = width
+        if fitting == 0 and clear >= 60 and not holes:
+            fitting, each = 1, clear // 5 * 5  # better a narrow window than a dark room
+        count = min(fitting, wanted - len(holes), 3)
+        if count <= 0 or not _open_air(stretch, shapes):
+            continue
+        pitch = (stretch.high - stretch.low) / count
+        for k in range(count):
+            low = round((stretch.low + (k + 0.5) * pitch - each / 2) / 5) * 5
+            holes.append(Hole("window", stretch.side, None, low, low + each, head - sill, sill))
+    return holes
+
+
+def _open_air(stretch: Stretch, shapes: np.ndarray) -> bool:
+    """Whether no room stands right before this stretch of outer wall."""
+    side = stretch.side
+    near, far = sorted((side.at + side.outward, side.at + side.outward * OUTLOOK))
+    low, high = (near, stretch.low + 1), (far, stretch.high - 1)
+    if side.axis == 1:
+        low, high = low[::-1], high[::-1]
+    before = shapely.box(low[0], low[1], high[0], high[1])
+    return not shapely.intersects(shapes, before).any()

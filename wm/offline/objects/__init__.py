@@ -1,0 +1,1 @@
+"""The offline objects backend: generator, parametric furniture arranged by room type."""

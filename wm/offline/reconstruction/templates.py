@@ -1,0 +1,103 @@
+"""Reconstruction by templates: a parametric piece of the label's kind, fitted to the points that images show, in their colours.
+
+In go a label, masked RGB with depth in metres, and the walls of the room; of the thing itself, and of who drew it, nothing is
+known. So it serves photographs and any image model as well as the offline one: where a depth model gives depth up to scale and
+shift, `wm.synth.lifting.metric_depth` makes it metric by the empty room.
+
+    sighting = Sighting(camera=camera, rgb=image, depth=metric_depth(estimate, bare, seed=0), mask=mask)
+    made = TemplateReconstruction(style_of("gothic castle")).reconstruct("oak armchair", [sighting], site, room, seed=0)
+"""
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+
+from wm.geometry.placement.upright import transformed
+from wm.geometry.placement.upright_box import UprightBox
+from wm.geometry.plan.site import Site
+from wm.offline.reconstruction.coloring import slot_colors
+from wm.offline.reconstruction.kinds import Template, kind_of, largest_size, rebuilt, templates_of
+from wm.offline.reconstruction.template_cost import evidence_of
+from wm.offline.reconstruction.template_fit import fit_template
+from wm.offline.reconstruction.texturing import textured
+from wm.offline.style.finish import Style
+from wm.offline.style.theme import style_of
+from wm.schema import ObjectsConfig
+from wm.synth.backends import Reconstruction, SceneContext, Sighting
+from wm.synth.lifting.sightings import near_together, sighting_points, trimmed
+from wm.types import SceneObject
+
+_POINTS = 240
+"""Points a thing is fitted to."""
+_OUTSIDE = 0.05
+"""Metres beyond the walls at which a thing's middle may come to lie."""
+_SPLINTER = 0.5
+"""Share of its kind's least height below which a fit has gone astray."""
+_LEAST = 12
+"""Points below which nothing can be said."""
+
+
+@dataclasses.dataclass(frozen=True)
+class TemplateReconstruction:
+    """The backend."""
+
+    style: Style  # what the theme's words say of furniture
+
+    def reconstruct(
+        self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
+    ) -> Reconstruction | None:
+        """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen, or none fits.
+
+        Args:
+          label: what it is, in any words: the last that names a kind of furniture decides; a box with a lid where none does.
+          sightings: what each image shows of it; one is enough, two from opposite sides are better.
+          site: the room it stands in, which holds it: floor, ceiling and walls.
+          room: index of the room, kept in the result.
+          seed: of the points that are drawn from the masks, and of what no image decides.
+        """
+        share = _POINTS // len(sightings)
+        points = np.concatenate([trimmed(sighting_points(s, limit=share, seed=seed)) for s in sightings])
+        points = near_together(points, largest_size(kind_of(label)))
+        if len(points) < _LEAST:
+            return None
+        templates = templates_of(kind_of(label), self.style)
+        fits = [fit_template(evidence_of(template, points, sightings, site)) for template in templates]
+        template, fit = min(zip(templates, fits, strict=True), key=lambda pair: pair[1].cost)
+        if not _plausible(fit.box, template, site):
+            return None
+        thing = built(label, template, fit.box, room, seed=seed)
+        colors, seen = slot_colors(thing, sightings)
+        colored = textured(dataclasses.replace(thing, slot_colors=colors), sightings, seen)
+        return Reconstruction(
+            thing=transformed(colored, np.asarray(sightings[0].camera.T_cam_world)),
+            seen=seen,
+            usual=thing.slot_colors,
+            residual=fit.residual,
+        )
+
+
+def make(config: ObjectsConfig, context: SceneContext) -> TemplateReconstruction:
+    """The reconstruction by templates in the style of the scene's theme; it has no settings."""
+    return TemplateReconstruction(style_of(context.theme))
+
+
+def _plausible(box: UprightBox, template: Template, site: Site) -> bool:
+    """Whether a fit stands in the room and is not a splinter of its kind."""
+    inside = bool(shapely.contains_xy(site.polygon.buffer(_OUTSIDE), box.x, box.y))
+    flat = template.support == "flat"
+    return inside and (flat or box.height > _SPLINTER * float(template.low[2]))
+
+
+def built(label: str, template: Template, box: UprightBox, room: int, *, seed: int) -> SceneObject:
+    """A piece of the template's kind that fills a box."""
+    size = np.array([box.width, box.depth, box.height])
+    piece = rebuilt(template, size, np.random.default_rng(np.random.SeedSequence([seed, 0xB1])))
+    T = box.transform
+    filled = piece.vertices * (size / piece.size)
+    return SceneObject(
+        label=label, room=room, support=template.support, vertices=filled @ T[:3, :3].T + T[:3, 3], faces=piece.faces,
+        face_slot=piece.face_slot, slots=piece.slots, slot_colors=piece.slot_colors, T_world_object=T, size=size,
+        emission=piece.emission,
+    )  # fmt: skip

@@ -1,0 +1,29 @@
+"""The style families: palette, materials, furniture shapes and light of each, and the words of a theme that select it."""
+
+from wm.offline.style.families.contemporary import INDUSTRIAL, MINIMALIST, MODERN, SCANDINAVIAN
+from wm.offline.style.families.historic import BAROQUE, GOTHIC, ROMAN, VICTORIAN
+from wm.offline.style.families.imagined import CLOCKWORK, CYBERPUNK, SURREAL
+from wm.offline.style.families.regional import COASTAL, JAPANESE, MOROCCAN, RUSTIC
+from wm.offline.style.families.retro import ART_DECO, MIDCENTURY
+from wm.offline.style.sheet import Sheet
+
+FAMILIES: dict[str, Sheet] = {
+    "gothic": GOTHIC,
+    "victorian": VICTORIAN,
+    "baroque": BAROQUE,
+    "roman": ROMAN,
+    "scandinavian": SCANDINAVIAN,
+    "minimalist": MINIMALIST,
+    "modern": MODERN,
+    "midcentury": MIDCENTURY,
+    "art_deco": ART_DECO,
+    "coastal": COASTAL,
+    "rustic": RUSTIC,
+    "industrial": INDUSTRIAL,
+    "cyberpunk": CYBERPUNK,
+    "japanese": JAPANESE,
+    "moroccan": MOROCCAN,
+    "clockwork": CLOCKWORK,
+    "surreal": SURREAL,
+}
+"""Every family of the offline world; "modern" is the neutral one."""

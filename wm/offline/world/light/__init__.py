@@ -1,0 +1,24 @@
+"""Light of the procedural world: where it is stored, where it comes from, and how it gets there."""
+
+from wm.offline.world.light.bake import BakeSettings, LightField, Sources, bake
+from wm.offline.world.light.charts import RoomCharts, chart_places, luxel_positions, room_charts
+from wm.offline.world.light.environment import look_up
+from wm.offline.world.light.facets import Facets, build_facets, facet_weights
+from wm.offline.world.light.luxels import LightPoints
+from wm.offline.world.light.probes import Probes, build_probes
+from wm.offline.world.light.sources import (
+    Emitter,
+    ceiling_emitters,
+    glow_color,
+    lamp_emitters,
+    pane_emitters,
+    soften,
+    sun_direction,
+)
+from wm.offline.world.light.transport import exposed
+
+__all__ = [
+    "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "Probes", "RoomCharts", "Sources", "bake", "build_facets",
+    "build_probes", "ceiling_emitters", "chart_places", "exposed", "facet_weights", "glow_color", "lamp_emitters", "look_up",
+    "luxel_positions", "pane_emitters", "room_charts", "soften", "sun_direction",
+]  # fmt: skip

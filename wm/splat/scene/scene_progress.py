@@ -1,0 +1,72 @@
+"""How far the fit of a scene is: told to whoever watches, and kept so that nothing is lost. Rooms call from their own threads."""
+
+import dataclasses
+import threading
+import time
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from wm.splat.optimization.checkpoint import to_arrays
+from wm.splat.optimization.fitting import Progress
+from wm.splat.optimization.room_state import RoomState
+
+Arrays = Mapping[str, np.ndarray]
+Load = Callable[[int, int], Arrays | None]
+Store = Callable[[int, int, Arrays], None]
+
+
+class Halted(Exception):
+    """Raised in the rooms under way when the fit of the scene is interrupted."""
+
+
+class SceneProgress:
+    """Steps done over all rooms, told to `progress` one call at a time."""
+
+    def __init__(self, total: int, progress: Progress | None) -> None:
+        self._done, self._total, self._progress, self._lock = 0, total, progress, threading.Lock()
+        self._halted = False
+
+    def step(self, info: dict) -> None:
+        """One more step of a room.
+
+        Raises: Halted after `halt`.
+        """
+        self._add(1, info)
+        if self._halted:
+            raise Halted
+
+    def skip(self, steps: int) -> None:
+        """Steps that need not be taken."""
+        self._add(steps, {})
+
+    def halt(self) -> None:
+        """From now on every room ends at its next step."""
+        self._halted = True
+
+    def _add(self, steps: int, info: dict) -> None:
+        with self._lock:
+            self._done += steps
+            if self._progress is not None:
+                self._progress(self._done, self._total, info)
+
+
+@dataclasses.dataclass(frozen=True)
+class Checkpoints:
+    """Where the states of rooms are kept, and how often."""
+
+    load: Load
+    store: Store
+    seconds: float
+
+    def keeper(self, round_: int, room: int) -> Callable[[Callable[[], RoomState]], None]:
+        """What to call after every step of a room with what gives its state: stores it when it is time."""
+        last = time.perf_counter()
+
+        def keep(state: Callable[[], RoomState]) -> None:
+            nonlocal last
+            if time.perf_counter() - last >= self.seconds:
+                self.store(round_, room, to_arrays(state()))
+                last = time.perf_counter()
+
+        return keep

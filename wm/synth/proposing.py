@@ -1,0 +1,99 @@
+"""Propose - validate - correct: asks a language backend for a floor plan until it keeps every rule.
+
+One iteration is one answer of the backend (paper, table "Floor-plan layout-LLM backends": 1.3 to 3.2 of them, 79 to 252 s).
+"""
+
+import dataclasses
+import time
+from collections import Counter
+
+from wm.geometry.plan.loading import FloorPlan, PlanError, parse_plan
+from wm.offline.language.programme import CIRCULATION, kind_of
+from wm.synth.backends import LanguageBackend
+
+_LONGEST_NAME = 200  # as in wm.geometry.plan.loading
+_SHOWN = 12  # violations in an error message
+
+
+@dataclasses.dataclass(frozen=True)
+class Attempt:
+    """One answer of the backend and what was wrong with it (nothing for the last)."""
+
+    text: str
+    violations: tuple[str, ...]
+    seconds: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Proposal:
+    """A valid floor plan and how it came about."""
+
+    plan: FloorPlan
+    iterations: int
+    seconds: float  # of backend and validation together
+    transcript: tuple[Attempt, ...]
+
+
+class ProposalError(RuntimeError):
+    """No valid floor plan within the limit."""
+
+    def __init__(self, transcript: tuple[Attempt, ...]):
+        self.transcript = transcript
+        last = transcript[-1].violations
+        more = f" (and {len(last) - _SHOWN} more)" if len(last) > _SHOWN else ""
+        tries = "1 proposal" if len(transcript) == 1 else f"{len(transcript)} proposals"
+        super().__init__(f"no valid floor plan after {tries}; the last one had: {'; '.join(last[:_SHOWN])}{more}")
+
+
+def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed: int, max_iterations: int) -> Proposal:
+    """Asks `backend` for a plan of these rooms until one is valid.
+
+    Args:
+      backend: answers with JSON text; sees its last answer and the violations when it is asked again.
+      theme: the scene in words.
+      rooms: the programme, one entry a room; a plan may add rooms that only lead to others, and leave none out.
+      seed: of the scene.
+      max_iterations: answers that are looked at, at least 1.
+
+    Raises:
+      ValueError: there are no rooms, or an entry is no name.
+      ProposalError: every answer broke a rule; the message lists the violations of the last.
+    """
+    if not rooms:
+        raise ValueError("the room programme is empty; name at least one room")
+    for room in rooms:
+        if not room.strip() or not room.isprintable() or len(room) > _LONGEST_NAME:
+            raise ValueError(f"the room programme names {room!r}; a name has 1 to {_LONGEST_NAME} printable characters")
+    transcript: list[Attempt] = []
+    previous, violations = None, []
+    for _ in range(max(max_iterations, 1)):
+        start = time.perf_counter()
+        previous = backend.propose(theme, rooms, seed=seed, violations=list(violations), previous=previous)
+        plan, violations = _validated(previous, rooms)
+        transcript.append(Attempt(previous, tuple(violations), time.perf_counter() - start))
+        if plan is not None:
+            seconds = sum(attempt.seconds for attempt in transcript)
+            return Proposal(plan=plan, iterations=len(transcript), seconds=seconds, transcript=tuple(transcript))
+    raise ProposalError(tuple(transcript))
+
+
+def _validated(text: str, rooms: list[str]) -> tuple[FloorPlan | None, list[str]]:
+    try:
+        plan = parse_plan(text, source="proposal")
+    except PlanError as error:
+        return None, [str(violation) for violation in error.violations]
+    violations = _programme_violations(plan, rooms)
+    return (None if violations else plan), violations
+
+
+def _programme_violations(plan: FloorPlan, rooms: list[str]) -> list[str]:
+    """Rooms that were asked for and are not there, and rooms that nobody asked for."""
+    wanted = Counter(" ".join(room.split()).lower() for room in rooms)
+    there = Counter(" ".join(room.name.split()).lower() for room in plan.rooms)
+    missing = [f"plan: programme: no room is named {name!r}, {count} wanted" for name, count in (wanted - there).items()]
+    extra = [
+        f"plan: programme: room {name!r} was not asked for; only halls and corridors may be added"
+        for name in there - wanted
+        if kind_of(name).zone != CIRCULATION
+    ]
+    return missing + extra
