@@ -60,8 +60,10 @@ def test_camera_background_and_constants():
         check_background(np.zeros((13, 21, 3), np.uint8), view)
     with pytest.raises(ValueError, match=r"camera\.focal has shape \(\); \(2\)"):
         render(gaussians, dataclasses.replace(view, focal=np.float32(18.0)))
-    with pytest.raises(ValueError, match="alpha_min 0"):
+    with pytest.raises(ValueError, match=r"settings\.alpha_min is 0\.0; a number in \[1e-30, 1\]"):
         render(gaussians, view, settings=RasterSettings(alpha_min=0.0))
+    with pytest.raises(ValueError, match=r"settings\.alpha_min 0\.5 and alpha_max 0\.5 are out of order"):
+        render(gaussians, view, settings=RasterSettings(alpha_min=0.5, alpha_max=0.5))
 
 
 def with_value(settings, name, value):
