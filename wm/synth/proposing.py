@@ -8,8 +8,8 @@ import time
 from collections import Counter
 
 from wm.geometry.plan.loading import FloorPlan, PlanError, parse_plan
-from wm.offline.language.programme import CIRCULATION, kind_of
 from wm.synth.backends import LanguageBackend
+from wm.synth.room_names import CONNECTING, room_sort
 
 _LONGEST_NAME = 200  # as in wm.geometry.plan.loading
 _SHOWN = 12  # violations in an error message
@@ -94,6 +94,6 @@ def _programme_violations(plan: FloorPlan, rooms: list[str]) -> list[str]:
     extra = [
         f"plan: programme: room {name!r} was not asked for; only halls and corridors may be added"
         for name in there - wanted
-        if kind_of(name).zone != CIRCULATION
+        if room_sort(name) not in CONNECTING
     ]
     return missing + extra
