@@ -48,9 +48,9 @@ class Recording:
         self._asked()
         return self.inner.segment(result, seed=seed)
 
-    def reconstruct(self, label, sightings, site, room, *, seed):
+    def reconstruct(self, label, observations, site, room, *, seed):
         self._asked()
-        return self.inner.reconstruct(label, sightings, site, room, seed=seed)
+        return self.inner.reconstruct(label, observations, site, room, seed=seed)
 
     def close(self):
         self._note("closed")

@@ -74,7 +74,7 @@ class Segment:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Sighting:
+class Observation:
     """What one image shows of one thing."""
 
     camera: Camera
@@ -87,7 +87,7 @@ class Sighting:
 class Reconstruction:
     """One thing as a mesh of its own."""
 
-    thing: SceneObject  # in the frame of the first sighting's camera; its slots in the colours that the images show
+    thing: SceneObject  # in the frame of the first observation's camera; its slots in the colours that the images show
     seen: np.ndarray  # [s] bool: slots whose colour an image shows; the others have their usual one
     usual: np.ndarray  # [s, 3] float32 sRGB: the slots' usual colours
     residual: float  # metres between the points seen and the mesh, median
@@ -151,7 +151,7 @@ class SegmentationBackend(Protocol):
 @runtime_checkable
 class ReconstructionBackend(Protocol):
     def reconstruct(
-        self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
+        self, label: str, observations: Sequence[Observation], site: Site, room: int, *, seed: int
     ) -> Reconstruction | None:
         """One thing from what one or more images show of it; None where that is too little."""
         ...

@@ -33,12 +33,12 @@ from wm.synth.backends import (
     ImageBackend,
     ImageRequest,
     ImageResult,
+    Observation,
     Reconstruction,
     ReconstructionBackend,
     SceneContext,
     Segment,
     SegmentationBackend,
-    Sighting,
     close_backend,
     make_backend,
     mismatch,
@@ -46,8 +46,8 @@ from wm.synth.backends import (
 from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.condition import depth_grey
 from wm.synth.lifting.metric_depth import metric_depth
+from wm.synth.lifting.observations import Instance, gather, in_room, joined
 from wm.synth.lifting.segments import tidy_segments
-from wm.synth.lifting.sightings import Thing, gather, in_room, joined
 from wm.synth.lifting.unlit import unlit
 from wm.synth.prompts import furnish_prompt
 from wm.synth.sights import sights
@@ -182,7 +182,7 @@ def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: M
         seed = _seed(context.seed, room, k)
         drawing = draw(context, room, camera, bare, models, config, reference=drawings[0] if drawings else None, seed=seed)
         drawings += [drawing] if drawing is not None else []
-    found = [[(segment, _sighting(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
+    found = [[(segment, _observation(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
     things = gather([[pair for pair in pairs if in_room(pair[1], site.polygon)] for pairs in found])
     reconstructions = _reconstructed(context, room, site, things, models.reconstruction)
     in_world = unlit(reconstructions)
@@ -190,16 +190,16 @@ def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: M
 
 
 def _reconstructed(
-    context: SceneContext, room: int, site: Site, things: list[Thing], backend: ReconstructionBackend
+    context: SceneContext, room: int, site: Site, things: list[Instance], backend: ReconstructionBackend
 ) -> list[Reconstruction]:
     """Each thing in the world; those that turn out to be one are reconstructed again, together."""
 
-    def made(thing: Thing, number: int) -> Reconstruction | None:
+    def made(thing: Instance, number: int) -> Reconstruction | None:
         seed = _seed(context.seed, room, 100 + number)
-        result = backend.reconstruct(thing.label, thing.sightings, site, room, seed=seed)
+        result = backend.reconstruct(thing.label, thing.observations, site, room, seed=seed)
         if result is None:
             return None
-        T_world_cam = np.linalg.inv(np.asarray(thing.sightings[0].camera.T_cam_world, np.float64))
+        T_world_cam = np.linalg.inv(np.asarray(thing.observations[0].camera.T_cam_world, np.float64))
         return dataclasses.replace(result, thing=transformed(result.thing, T_world_cam))
 
     first = [made(thing, k) for k, thing in enumerate(things)]
@@ -239,8 +239,8 @@ def draw(
     return Drawing(camera=camera, result=result, depth=depth, segments=segments)
 
 
-def _sighting(drawing: Drawing, segment: Segment) -> Sighting:
-    return Sighting(camera=drawing.camera, rgb=drawing.result.rgb, depth=drawing.depth, mask=segment.mask)
+def _observation(drawing: Drawing, segment: Segment) -> Observation:
+    return Observation(camera=drawing.camera, rgb=drawing.result.rgb, depth=drawing.depth, mask=segment.mask)
 
 
 def _seed(*numbers: int) -> int:
