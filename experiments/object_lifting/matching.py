@@ -1,6 +1,7 @@
 """True things against their reconstructions, and what that comes to in figures."""
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -36,9 +37,10 @@ class Match:
     yaw_deg: float  # NaN too where the thing is round
 
 
-def matches(scene: str, context: SceneContext, room: int, imagined: SceneContext, lifted: LiftedRoom) -> list[Match]:
+def matches(
+    scene: str, context: SceneContext, room: int, true: Sequence[SceneObject], lifted: LiftedRoom
+) -> list[Match]:
     """Every true thing of a room against its reconstruction: one to one, of one label, for the largest sum of overlaps."""
-    true = imagined.objects
     mine = [k for k, thing in enumerate(true) if thing.room == room]
     made = [levelled(thing) for thing in lifted.things]
     gain = np.array([[_gain(true[k], thing) for thing in made] for k in mine]).reshape(len(mine), len(made))

@@ -16,15 +16,15 @@ from shaking import shaken
 from sketch import sketch_of
 
 from wm.geometry import build_structure, navigability
-from wm.geometry.cameras.views import bootstrap_cameras
 from wm.geometry.placement.laws import violations
 from wm.geometry.placement.placing import place_objects
 from wm.geometry.plan.site import room_site
+from wm.offline.arrangement.furnishing import furnish_scene
 from wm.offline.objects.generator import ProceduralObjects
 from wm.run import load_config, options
-from wm.schema import CameraSettings, ObjectsConfig
+from wm.schema import ObjectsConfig
 from wm.synth.backends import SceneContext, make_backend
-from wm.synth.lifting.lifted import LiftedObjects, LiftedRoom, lift_room
+from wm.synth.lifting.lifted import LiftedObjects, LiftedRoom, lift_room, room_cameras
 from wm.synth.proposing import propose_plan
 from wm.types import SceneObject
 
@@ -84,14 +84,10 @@ def contexts(scenes: list[str], rooms: int, seed: int) -> Iterator[tuple[str, Sc
 
 def lifted(backend: LiftedObjects, context: SceneContext, every: int) -> Iterator[tuple[int, LiftedRoom]]:
     """Every nth room of a scene, lifted from sketches of it."""
-    config = backend.config
-    imagined = backend.imagined(context, 1.0)
-    image = sketch_of(imagined)
-    models = backend.models(imagined, image=image)
-    settings = CameraSettings(width=config.image_width, height=config.image_height, fov=config.fov)
+    models = backend.models(context, image=sketch_of(context))
     for room in range(0, len(context.plan.rooms), every):
-        cameras = bootstrap_cameras(context.plan, image.scene, room, settings)
-        yield room, lift_room(context, room, cameras, models, config)
+        cameras = room_cameras(context, room, models.image, backend.config)
+        yield room, lift_room(context, room, cameras, models, backend.config)
 
 
 def lifted_rooms(scenes: list[str], count: int, every: int, seed: int, config: ObjectsConfig) -> tuple[list[Match], Tally]:
@@ -99,9 +95,9 @@ def lifted_rooms(scenes: list[str], count: int, every: int, seed: int, config: O
     rows: list[Match] = []
     tally = Tally("lifted")
     for scene, context in contexts(scenes, count, seed):
-        backend, everything = LiftedObjects(config), []
+        backend, truth, everything = LiftedObjects(config), furnish_scene(context), []
         for room, result in lifted(backend, context, every):
-            found = matches(scene, context, room, backend.imagined(context, 1.0), result)
+            found = matches(scene, context, room, truth, result)
             rows += found
             tally.unmatched += len(result.things) - int(sum(np.isfinite(row.center_m) for row in found))
             tally.dropped += len(result.placement.dropped)

@@ -23,6 +23,7 @@ from wm.geometry.mesh.object_colors import object_colors
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.rays.pinhole import camera_center, camera_rays, project_points
 from wm.geometry.rays.raycast import build_ray_scene, cast
+from wm.offline.arrangement.furnishing import furnish_scene
 from wm.offline.style.theme import style_of
 from wm.offline.world.pieces import build_pieces, look
 from wm.run import options
@@ -47,10 +48,11 @@ class Points:
     after: np.ndarray  # [n]
 
 
-def compared(context: SceneContext, imagined: SceneContext, room: int, lifted: LiftedRoom) -> Points:
+def compared(context: SceneContext, room: int, lifted: LiftedRoom) -> Points:
     """All planned views of a room, point by point."""
-    truth = [thing for thing in imagined.objects if thing.room == room]
-    everything = build_ray_scene(assemble_scene(imagined.structure, imagined.objects))
+    furniture = furnish_scene(context)
+    truth = [thing for thing in furniture if thing.room == room]
+    everything = build_ray_scene(assemble_scene(context.structure, furniture))
     views = [
         view.camera for view in place_cameras(context.plan, everything, VIEWS) if view.room == room and view.kind != "doorway"
     ]
@@ -140,7 +142,7 @@ def main() -> None:
         start = time.process_time()
         lifted = backend.lift(context, room)
         seconds = time.process_time() - start
-        points = compared(context, backend.imagined(context, 1.0), room, lifted)
+        points = compared(context, room, lifted)
         backend.close()
         rows.append(_row(f"{scene} {context.plan.rooms[room].name}", points))
         print(rows[-1], f"{seconds:.1f} s of this process's time", flush=True)

@@ -48,13 +48,20 @@ class Recording:
         self._asked()
         return self.inner.segment(result, seed=seed)
 
-    def reconstruct(self, label, sightings, site, room, *, seed):
+    def reconstruct(self, label, observations, site, room, *, seed):
         self._asked()
-        return self.inner.reconstruct(label, sightings, site, room, seed=seed)
+        return self.inner.reconstruct(label, observations, site, room, seed=seed)
 
     def close(self):
         self._note("closed")
         close_backend(self.inner)
+
+
+class RecordingImages(Recording):
+    """An image model that tells what it draws, and beforehand what it will draw."""
+
+    def imagined(self):
+        return self.inner.imagined()
 
 
 def recorded(monkeypatch, *groups, fails=None, draws=True):
@@ -71,8 +78,10 @@ def recorded(monkeypatch, *groups, fails=None, draws=True):
 
 
 def _register(monkeypatch, group, log, fails_at, draws):
-    offline = importlib.import_module(f"wm.synth.{group}.{CHOICES[group][0]}")
-    module = types.ModuleType(f"wm.synth.{group}.recording")
-    vars(module)["make"] = lambda config, context: Recording(group, offline.make(config, context), log, fails_at, draws)
+    offline = importlib.import_module(backends._MODULES[group, CHOICES[group][0]])
+    wrapper = RecordingImages if group == "image" and draws else Recording
+    module = types.ModuleType(f"tests.recording_{group}")
+    vars(module)["make"] = lambda config, context: wrapper(group, offline.make(config, context), log, fails_at, draws)
     monkeypatch.setitem(sys.modules, module.__name__, module)
     monkeypatch.setitem(CHOICES, group, (*CHOICES[group], "recording"))
+    monkeypatch.setitem(backends._MODULES, (group, "recording"), module.__name__)

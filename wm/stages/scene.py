@@ -11,7 +11,6 @@ from wm.geometry import (
     RayScene,
     assemble_scene,
     build_ray_scene,
-    build_structure,
     load_plan,
     parse_plan,
     place_cameras,
@@ -20,7 +19,7 @@ from wm.geometry import (
 )
 from wm.stages.job import Job
 from wm.synth.backends import SceneContext, make_backend
-from wm.synth.furnished import make_furnisher
+from wm.synth.furnished import bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
 from wm.types import Mesh, SceneObject, View
 
@@ -53,12 +52,11 @@ def build_scene(job: Job) -> Scene:
     with job.stage("plan"):
         plan, plan_key = _plan(job)
     with job.stage("structure"):
-        structure = build_structure(plan)
-        context = SceneContext(theme=job.config.scene.theme, seed=job.config.seed, plan=plan, structure=structure, objects=())
+        context = bare_context(job.config, plan)
     with job.stage("furnish"):
         objects, key = _furnish(job, context, plan_key)
         context = dataclasses.replace(context, objects=objects)
-        mesh = assemble_scene(structure, objects)
+        mesh = assemble_scene(context.structure, objects)
         rays = build_ray_scene(mesh)
     with job.stage("cameras"):
         views, heldout = _cameras(job, plan, rays)
@@ -102,7 +100,7 @@ def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[Scen
         return (), key
     if not job.folder.has("furnish", key):
         with job.bar("furnish", len(context.plan.rooms)) as bar:
-            objects = furnisher.furnish(context, density=config.furnish.density, done=bar.update)
+            objects = furnisher.furnish(context, done=bar.update)
         summary = codecs.object_summary(objects, [room.id for room in context.plan.rooms])
         job.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(objects), OBJECTS: json_text(summary)})
     return codecs.decode_objects((job.folder.path / OBJECT_ARRAYS).read_bytes()), key

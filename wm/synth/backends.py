@@ -28,7 +28,8 @@ class SceneContext:
     seed: int
     plan: Any  # wm.geometry.FloorPlan
     structure: Mesh  # without objects
-    objects: tuple[SceneObject, ...]
+    objects: tuple[SceneObject, ...]  # none while the scene is being furnished
+    density: float = 1.0  # 0..1: share of the optional pieces of furniture that are wanted (furnish.density)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -67,27 +68,27 @@ class ImageResult:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Segment:
-    """One thing in an image."""
+    """One instance in an image."""
 
     label: str  # what a person would call it
     mask: np.ndarray  # [h, w] bool
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Sighting:
-    """What one image shows of one thing."""
+class Observation:
+    """What one image shows of one instance."""
 
     camera: Camera
     rgb: np.ndarray  # [h, w, 3] float32 sRGB, the whole image
     depth: np.ndarray  # [h, w] float32 z-depth of the whole image, metres, 0 where unknown
-    mask: np.ndarray  # [h, w] bool: the pixels of the thing
+    mask: np.ndarray  # [h, w] bool: the pixels of the instance
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Reconstruction:
-    """One thing as a mesh of its own."""
+    """One instance as a mesh of its own."""
 
-    thing: SceneObject  # in the frame of the first sighting's camera; its slots in the colours that the images show
+    thing: SceneObject  # in the frame of the first observation's camera; its slots in the colours that the images show
     seen: np.ndarray  # [s] bool: slots whose colour an image shows; the others have their usual one
     usual: np.ndarray  # [s, 3] float32 sRGB: the slots' usual colours
     residual: float  # metres between the points seen and the mesh, median
@@ -119,6 +120,15 @@ class WorldBackend(ImageBackend, Protocol):
 
 
 @runtime_checkable
+class ImaginingBackend(ImageBackend, Protocol):
+    """An image backend that can tell beforehand which furniture its answers to the task "furnish" will show."""
+
+    def imagined(self) -> Sequence[SceneObject]:
+        """The furniture of all rooms in world space. Cameras that are to see a room furnished are kept clear of it."""
+        ...
+
+
+@runtime_checkable
 class LanguageBackend(Protocol):
     def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> str:
         """A floor plan as JSON text; `violations` and `previous` carry what was wrong with the last proposal."""
@@ -127,8 +137,8 @@ class LanguageBackend(Protocol):
 
 @runtime_checkable
 class ObjectsBackend(Protocol):
-    def furnish(self, context: SceneContext, room: int, *, density: float) -> list[SceneObject]:
-        """The objects of one room, placed in world space."""
+    def furnish(self, context: SceneContext, room: int) -> list[SceneObject]:
+        """The objects of one room, placed in world space, as densely as the context wants them."""
         ...
 
 
@@ -144,16 +154,16 @@ class ImageDrivenBackend(ObjectsBackend, Protocol):
 @runtime_checkable
 class SegmentationBackend(Protocol):
     def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
-        """The things of an image; of structure (walls, doors, windows) nothing."""
+        """The instances in an image; none of them is structure (walls, doors, windows)."""
         ...
 
 
 @runtime_checkable
 class ReconstructionBackend(Protocol):
     def reconstruct(
-        self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
+        self, label: str, observations: Sequence[Observation], site: Site, room: int, *, seed: int
     ) -> Reconstruction | None:
-        """One thing from what one or more images show of it; None where that is too little."""
+        """One instance from one or more observations of it; None where they show too little."""
         ...
 
 

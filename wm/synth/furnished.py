@@ -1,4 +1,4 @@
-"""The furniture of a configuration, for the furnish stage and for whoever wants no run folder."""
+"""The furniture of a configuration, for the furnish stage and for callers without a run folder."""
 
 import contextlib
 import dataclasses
@@ -17,25 +17,33 @@ class Furnisher:
     """The objects backend of a configuration."""
 
     backend: ObjectsBackend
-    models: tuple[ImageConfig | DepthConfig, ...]  # settings of those that it has images from; they shape the furniture too
+    models: tuple[ImageConfig | DepthConfig, ...]  # settings of the image and depth models that it asks: they shape the furniture
 
-    def furnish(self, context: SceneContext, *, density: float, done: Callable[[], object] = lambda: None) -> list[SceneObject]:
-        """The objects of all rooms; `done` is called after each. The backend is closed then, or after an error."""
+    def furnish(self, context: SceneContext, *, done: Callable[[], object] = lambda: None) -> list[SceneObject]:
+        """The objects of all rooms; `done` is called after each room. The backend is closed at the end, also after an error."""
         with contextlib.ExitStack() as held:
             held.callback(close_backend, self.backend)
             objects: list[SceneObject] = []
             for room in range(len(context.plan.rooms)):
-                objects += self.backend.furnish(context, room, density=density)
+                objects += self.backend.furnish(context, room)
                 done()
             return objects
 
 
 def make_furnisher(config: RunConfig, context: SceneContext) -> Furnisher:
-    """The selected objects backend, its images drawn and their depth estimated by the selected models if it wants any."""
+    """The selected objects backend; one that is image-driven asks the selected image and depth models."""
     backend: ObjectsBackend = make_backend("objects", config.objects, context)
     if isinstance(backend, ImageDrivenBackend):
         return Furnisher(backend.with_models(config.image, config.depth), (config.image, config.depth))
     return Furnisher(backend, ())
+
+
+def bare_context(config: RunConfig, plan: FloorPlan) -> SceneContext:
+    """The scene of a configuration before it is furnished."""
+    return SceneContext(
+        theme=config.scene.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=(),
+        density=config.furnish.density,
+    )  # fmt: skip
 
 
 def furnished_context(config: RunConfig) -> SceneContext:
@@ -46,10 +54,10 @@ def furnished_context(config: RunConfig) -> SceneContext:
       PlanError: `plan.file` holds none.
     """
     plan = _plan(config)
-    bare = SceneContext(theme=config.scene.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=())
+    bare = bare_context(config, plan)
     if not config.furnish.enabled:
         return bare
-    objects = make_furnisher(config, bare).furnish(bare, density=config.furnish.density)
+    objects = make_furnisher(config, bare).furnish(bare)
     return dataclasses.replace(bare, objects=tuple(objects))
 
 

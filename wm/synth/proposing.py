@@ -8,8 +8,8 @@ import time
 from collections import Counter
 
 from wm.geometry.plan.loading import FloorPlan, PlanError, parse_plan
-from wm.offline.language.programme import CIRCULATION, kind_of
 from wm.synth.backends import LanguageBackend
+from wm.synth.room_names import CONNECTING, room_sort
 
 _LONGEST_NAME = 200  # as in wm.geometry.plan.loading
 _SHOWN = 12  # violations in an error message
@@ -49,11 +49,11 @@ def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed
     """Asks `backend` for a plan of these rooms until one is valid.
 
     Args:
-      backend: answers with JSON text; sees its last answer and the violations when it is asked again.
+      backend: answers with JSON text; when it is asked again, it is given its last answer and the violations.
       theme: the scene in words.
-      rooms: the programme, one entry a room; a plan may add rooms that only lead to others, and leave none out.
+      rooms: the names of the wanted rooms; a plan leaves none out, and may add rooms of sorts that lead to others (CONNECTING).
       seed: of the scene.
-      max_iterations: answers that are looked at, at least 1.
+      max_iterations: how many answers are asked for at most; at least one is.
 
     Raises:
       ValueError: there are no rooms, or an entry is no name.
@@ -94,6 +94,6 @@ def _programme_violations(plan: FloorPlan, rooms: list[str]) -> list[str]:
     extra = [
         f"plan: programme: room {name!r} was not asked for; only halls and corridors may be added"
         for name in there - wanted
-        if kind_of(name).zone != CIRCULATION
+        if room_sort(name) not in CONNECTING
     ]
     return missing + extra

@@ -1,7 +1,6 @@
-"""What a room is, by its name: one vocabulary for who lays a house out and for who finishes and furnishes its rooms.
+"""Sorts of rooms, told by a room's name.
 
-A name speaks of one sort of room. How large a sort is and how it likes to be reached says wm.offline.language.programme, what is
-in it and how it is finished wm.offline.arrangement.room_type: each has an entry for every sort, so that they cannot disagree.
+One vocabulary for all that propose a plan, check it, or finish and furnish its rooms.
 """
 
 import re
@@ -34,7 +33,9 @@ WORDS = {
     "service": "service pantry larder laundry utility closet storage store storeroom cellar mudroom dressing wardrobe cloakroom",
 }
 SORTS = (*WORDS, ROOM, OTHER)
-"""Every sort of room; ROOM is one whose name says no more than that ("tea room"), OTHER one whose name says nothing we know."""
+"""Every sort of room; ROOM is one whose name says no more than that ("tea room"), OTHER one whose name has no known word."""
+CONNECTING = frozenset(("corridor", "hall", "great hall", "gallery", "atrium"))
+"""Sorts of rooms that lead to others. A plan may add rooms of these sorts to those that were asked for."""
 _SORT_OF_WORD = {word: sort for sort, words in WORDS.items() for word in words.split()}
 
 

@@ -7,13 +7,16 @@ import pytest
 
 from tests.offline.world.boxes import COARSE, furnished
 from wm.geometry.rays.pinhole import make_camera
-from wm.offline.image.imagination import SCENE, Imagination, imagined_scene, imagined_style
+from wm.geometry.rays.raycast import build_ray_scene, cast
+from wm.offline.image import painter
+from wm.offline.image.imagination import FURNISHED, SCENE, Imagination, imagined_scene, imagined_style
 from wm.offline.image.painter import ProceduralImages, Scenery, lowpass
 from wm.offline.style.theme import style_of
+from wm.offline.world.room import bake_settings
 from wm.offline.world.worker import Recipe, WorkerWorld
 from wm.offline.world.world import World
-from wm.schema import ImageConfig
-from wm.synth.backends import Condition, ImageRequest, close_backend, make_backend
+from wm.schema import ImageConfig, ObjectsConfig
+from wm.synth.backends import Condition, ImageRequest, ImaginingBackend, close_backend, make_backend
 from wm.types import OUTSIDE, View
 
 
@@ -224,14 +227,50 @@ def test_the_scene_is_the_scene_and_each_other_world_its_own():
     assert len(set(other)) == 5
 
 
-def test_asked_to_furnish_it_has_the_scene_s_furniture_in_mind(shot):
+def bare(**changes):
+    """The scene without furniture, sparsely furnished if it were."""
+    return dataclasses.replace(furnished(), objects=(), density=0.3, **changes)
+
+
+def same(things, others):
+    return [(a.label, a.room, a.vertices.tobytes()) for a in things] == [(b.label, b.room, b.vertices.tobytes()) for b in others]
+
+
+def test_what_it_imagines_in_empty_rooms_is_what_the_generator_furnishes_them_with():
+    for scene in (bare(), bare(seed=5)):
+        generator, images = make_backend("objects", ObjectsConfig(), scene), make_backend("image", ImageConfig(), scene)
+        assert isinstance(images, ImaginingBackend)
+        generated = [thing for room in range(len(scene.plan.rooms)) for thing in generator.furnish(scene, room)]
+        assert generated and same(images.imagined(), generated)
+        close_backend(images)
+    assert not same(imagined_scene(bare(), FURNISHED).objects, imagined_scene(bare(seed=5), FURNISHED).objects)
+
+
+def test_asked_to_furnish_it_draws_what_it_imagines():
     """Shown the empty room, whatever the seed, and whoever looks: its violations too are those of a furnished room."""
-    empty = np.where(shot.object == OUTSIDE, shot.gbuffer.depth, shot.gbuffer.depth * 1.5).astype(np.float32)
-    asked = [request(shot, depth=empty, seed=s, objects="none", painted=s % 2 == 0, wall_texture=False) for s in range(4)]
+    scene = imagined_scene(bare(), FURNISHED)
+    world = World(scene, settings=COARSE)
+    images, forgetful = (
+        ProceduralImages(bare(), lambda context, which: world, ImageConfig(drift=0.0, missing=missing)) for missing in (0.0, 1.0)
+    )
+    shot, empty = world.shoot(VIEW.camera), cast(build_ray_scene(bare().structure), VIEW.camera)
+    shown = {"depth": empty.depth, "objects": "none", "wall_texture": False}
+    asked = [
+        dataclasses.replace(request(shot, seed=seed, painted=seed % 2 == 0, **shown), task="furnish") for seed in range(4)
+    ]
+    assert (shot.object != OUTSIDE).any()
     for one in asked:
-        result = model().generate(dataclasses.replace(one, task="furnish"))
+        result = images.generate(one)
         np.testing.assert_array_equal(result.drawn_object, shot.object)
         np.testing.assert_array_equal(result.rgb, shot.rgb)
-    assert any((model().generate(one).drawn_depth != shot.gbuffer.depth).any() for one in asked)
-    gone = [model(missing=1.0).generate(dataclasses.replace(one, task="furnish")) for one in asked]
-    assert any((result.drawn_object != shot.object).any() for result in gone)
+        assert result.drawn_labels == tuple(thing.label for thing in images.imagined())
+    assert any((forgetful.generate(one).drawn_object != shot.object).any() for one in asked)
+
+
+@pytest.mark.parametrize(("texel_size", "furnishing"), [(0.01, painter.COARSE), (0.08, 0.08)])
+def test_the_world_that_it_furnishes_rooms_in_is_coarser(texel_size, furnishing):
+    images = make_backend("image", ImageConfig(texel_size=texel_size, worker=False), bare())
+    with_furniture, without = images.scenery(FURNISHED).world, images.scenery(SCENE).world
+    assert with_furniture.labels and not without.labels
+    assert (with_furniture._supersampling, with_furniture._settings) == (1, bake_settings(furnishing))
+    assert (without._supersampling, without._settings) == (2, bake_settings(texel_size))

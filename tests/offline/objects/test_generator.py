@@ -27,13 +27,13 @@ PLAN = {
 }  # fmt: skip
 
 
-def context(seed=0, theme="gothic mansion"):
+def context(seed=0, theme="gothic mansion", density=1.0):
     plan = parse_plan(json.dumps(PLAN))
-    return SceneContext(theme=theme, seed=seed, plan=plan, structure=build_structure(plan), objects=())
+    return SceneContext(theme=theme, seed=seed, plan=plan, structure=build_structure(plan), objects=(), density=density)
 
 
-def furnish(scene, room, density=1.0):
-    return make_backend("objects", ObjectsConfig(), scene).furnish(scene, room, density=density)
+def furnish(scene, room):
+    return make_backend("objects", ObjectsConfig(), scene).furnish(scene, room)
 
 
 def test_objects_are_world_space_records_of_their_room():
@@ -62,6 +62,11 @@ def test_the_room_type_chooses_the_furniture():
     assert "toilet" in {o.label for o in furnish(scene, 1)} and "toilet" not in {o.label for o in furnish(scene, 0)}
 
 
+def test_the_context_s_density_decides_how_much_there_is():
+    counts = [sum(len(furnish(context(seed, density=share), 0)) for seed in range(3)) for share in (0.0, 0.5, 1.0)]
+    assert counts[0] < counts[1] < counts[2]
+
+
 def test_a_density_out_of_range_is_refused():
     with pytest.raises(ValueError, match=r"furnish\.density is 1\.5"):
-        furnish(context(), 0, density=1.5)
+        furnish(context(density=1.5), 0)

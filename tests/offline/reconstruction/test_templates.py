@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.synth.lifting.scenes import STYLE, bare, cameras, piece, sightings, site
+from tests.synth.lifting.scenes import STYLE, bare, cameras, observations, piece, site
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.placement.upright import levelled, transformed, turn_between
 from wm.geometry.placement.upright_box import UprightBox, box_iou, box_of
@@ -21,7 +21,7 @@ BACKEND = TemplateReconstruction(STYLE)
 
 
 def lifted(thing, *, count=2, others=()):
-    seen = sightings([thing, *others], 0, count)
+    seen = observations([thing, *others], 0, count)
     made = BACKEND.reconstruct(thing.label, seen, site(), 0, seed=1)
     assert made is not None
     T_world_cam = np.linalg.inv(np.asarray(seen[0].camera.T_cam_world))
@@ -88,10 +88,10 @@ def test_the_mesh_is_of_what_label_and_masked_images_show_and_no_truth_is_read(k
     thing = piece(kind, 2.6, 1.6, 0.6, (0.85, 0.5, 0.95))
     hollow, rng = only_seen(thing), np.random.default_rng(0)
     assert len(hollow.faces) < 0.8 * len(thing.faces)
-    seen, again = sightings([thing], 0), sightings([hollow], 0)
-    for sighting, other in zip(seen, again, strict=True):
-        np.testing.assert_array_equal(sighting.mask, other.mask)
-        np.testing.assert_array_equal(sighting.depth, other.depth)
+    seen, again = observations([thing], 0), observations([hollow], 0)
+    for observation, other in zip(seen, again, strict=True):
+        np.testing.assert_array_equal(observation.mask, other.mask)
+        np.testing.assert_array_equal(observation.depth, other.depth)
     partly = [s.mask & (np.arange(s.mask.shape[1]) < np.quantile(np.nonzero(s.mask)[1], 0.8)) for s in seen]
     seen = [dataclasses.replace(s, mask=mask) for s, mask in zip(seen, partly)]  # so that some of it is shown outside the mask
     noise = [np.where(mask[..., None], s.rgb, rng.random(s.rgb.shape, np.float32)) for s, mask in zip(seen, partly)]
@@ -116,14 +116,14 @@ def test_slots_have_the_colour_of_the_image_and_light_is_taken_off_for_all_alike
 
 
 def test_too_few_points_give_nothing():
-    seen = sightings([piece("armchair", 2.6, 1.6, 0.6, (0.85, 0.84, 0.95))], 0)
-    empty = [dataclasses.replace(sighting, mask=np.zeros_like(sighting.mask)) for sighting in seen]
+    seen = observations([piece("armchair", 2.6, 1.6, 0.6, (0.85, 0.84, 0.95))], 0)
+    empty = [dataclasses.replace(observation, mask=np.zeros_like(observation.mask)) for observation in seen]
     assert BACKEND.reconstruct("armchair", empty, site(), 0, seed=0) is None
 
 
 def test_a_mesh_in_the_cameras_frame_is_the_one_of_the_world():
     thing = piece("chest", 2.0, 2.0, 0.3, (0.9, 0.5, 0.5))
-    T = np.asarray(sightings([thing], 0)[0].camera.T_cam_world)
+    T = np.asarray(observations([thing], 0)[0].camera.T_cam_world)
     back = transformed(transformed(thing, T), np.linalg.inv(T))
     assert np.allclose(back.vertices, thing.vertices) and np.allclose(back.T_world_object, thing.T_world_object)
 

@@ -16,7 +16,7 @@ from wm.geometry.placement.upright_box import box_of
 from wm.geometry.rays.pinhole import make_camera, unproject_depth
 from wm.geometry.rays.raycast import cast
 from wm.offline.reconstruction.texturing import textured
-from wm.synth.backends import Sighting
+from wm.synth.backends import Observation
 from wm.types import Mesh
 
 PLAIN = np.array([0.45, 0.4, 0.35])
@@ -45,13 +45,13 @@ def view(eye=(0.0, -1.6, 0.0), at=(0.0, 0.0, 0.0), width=160):
     return make_camera(np.array(eye, float), np.array(at, float), width=width, height=width * 3 // 4, fov_deg=60.0)
 
 
-def sighting(thing, camera, paint=checks, motion=None):
+def observation(thing, camera, paint=checks, motion=None):
     """What a camera shows of a thing whose surface is painted by place (before a motion); magenta beside it."""
     gbuffer = cast(assemble_scene(EMPTY, [thing]), camera)
     points = unproject_depth(camera, gbuffer.depth)
     points = points if motion is None else (points - motion[:3, 3]) @ motion[:3, :3]
     rgb = np.where(gbuffer.hit[..., None], paint(points), MAGENTA).astype(np.float32)
-    return Sighting(camera=camera, rgb=rgb, depth=gbuffer.depth, mask=gbuffer.hit)
+    return Observation(camera=camera, rgb=rgb, depth=gbuffer.depth, mask=gbuffer.hit)
 
 
 def colors_at(thing, camera):
@@ -71,7 +71,7 @@ def inside_fields(points, pitch=0.2, margin=0.03):
 
 def lifted(**kind):
     thing = board()
-    return textured(thing, [sighting(thing, view(), **kind)], SLOTS)
+    return textured(thing, [observation(thing, view(), **kind)], SLOTS)
 
 
 def test_what_is_seen_straight_on_has_the_images_colour_there():
@@ -93,7 +93,7 @@ def test_sides_that_no_image_shows_have_their_slots_colour():
 def test_nothing_outside_the_mask_bleeds_in(seed):
     """Whatever is drawn outside the mask, the texture is the same to the byte."""
     thing, rng = board(), np.random.default_rng(seed)
-    seen = sighting(thing, view())
+    seen = observation(thing, view())
     mask = seen.mask & (np.arange(160) + rng.uniform(0.5, 2) * np.arange(120)[:, None] < rng.uniform(100, 200))
     one = textured(thing, [dataclasses.replace(seen, mask=mask)], SLOTS)
     noise = np.where(mask[..., None], seen.rgb, rng.random(seen.rgb.shape)).astype(np.float32)
@@ -104,7 +104,7 @@ def test_nothing_outside_the_mask_bleeds_in(seed):
 
 def test_pixels_whose_depth_is_not_the_things_are_not_used():
     thing = board()
-    seen = sighting(thing, view())
+    seen = observation(thing, view())
     assert textured(thing, [dataclasses.replace(seen, depth=seen.depth + np.float32(0.3))], SLOTS).texture is None
 
 
@@ -114,7 +114,7 @@ def test_smooth_light_and_the_tint_of_an_image_leave_no_trace():
     def glowing(points):
         return PLAIN * [1.1, 1.0, 0.9] * (0.75 + 0.4 * points[..., :1] + 0.2 * points[..., 2:])
 
-    seen = sighting(board(), view(), glowing)
+    seen = observation(board(), view(), glowing)
     rgb, points, hit = colors_at(textured(board(), [seen], SLOTS), view())
     inner = hit & (np.abs(points[..., 0]) < 0.5) & (np.abs(points[..., 2]) < 0.35)
     drawn = glowing(points)[inner]
@@ -131,7 +131,7 @@ def test_a_moved_thing_under_a_moved_camera_has_the_same_texture(yaw, x, y):
     camera = view()
     moved = transformed(board(), motion)
     away = dataclasses.replace(camera, T_cam_world=camera.T_cam_world @ np.linalg.inv(motion))
-    there = textured(moved, [sighting(moved, away, motion=motion)], SLOTS)
+    there = textured(moved, [observation(moved, away, motion=motion)], SLOTS)
     rgb, _, hit = colors_at(lifted(), camera)
     other, _, other_hit = colors_at(there, away)
     both = hit & other_hit
@@ -146,7 +146,7 @@ def test_placing_a_thing_leaves_its_colours_on_its_faces():
     assert not np.allclose(placed.vertices, thing.vertices)
 
 
-def test_the_same_sightings_give_the_same_bytes():
+def test_the_same_observations_give_the_same_bytes():
     first, second = lifted(), lifted()
     assert first.texture.image.tobytes() == second.texture.image.tobytes()
     assert first.texture.corner_uv.tobytes() == second.texture.corner_uv.tobytes()
@@ -154,8 +154,8 @@ def test_the_same_sightings_give_the_same_bytes():
 
 def test_where_two_images_differ_in_exposure_they_agree_on_the_surface():
     thing = board()
-    seen = sighting(thing, view())
-    dim = dataclasses.replace(sighting(thing, view((0.3, -1.5, 0.2))))
+    seen = observation(thing, view())
+    dim = dataclasses.replace(observation(thing, view((0.3, -1.5, 0.2))))
     dim = dataclasses.replace(dim, rgb=(0.8 * dim.rgb).astype(np.float32))
     rgb, points, hit = colors_at(textured(thing, [seen, dim], SLOTS), view())
     fields = hit & inside_fields(points)
@@ -166,7 +166,7 @@ def test_where_two_images_differ_in_exposure_they_agree_on_the_surface():
 def test_textures_are_bounded(size):
     thing = board(size)
     camera = view((0.0, -0.6, 0.0), width=640)
-    made = textured(thing, [sighting(thing, camera)], SLOTS)
+    made = textured(thing, [observation(thing, camera)], SLOTS)
     assert 100 < made.texture.image.shape[0] * made.texture.image.shape[1] < 1 << 18
     assert made.texture.image.dtype == np.uint8
     assert 0 <= made.texture.corner_uv.min() <= made.texture.corner_uv.max() <= 1
@@ -174,7 +174,7 @@ def test_textures_are_bounded(size):
 
 def test_slots_that_are_not_asked_for_have_no_texture():
     thing = board()
-    assert textured(thing, [sighting(thing, view())], np.array([False])).texture is None
+    assert textured(thing, [observation(thing, view())], np.array([False])).texture is None
     assert textured(thing, [], SLOTS).texture is None
 
 
@@ -193,7 +193,7 @@ def test_where_the_template_is_a_little_off_a_slot_does_not_smear_over_its_neigh
     drawn = np.maximum(slot, 0)
     drawn[:, :-1] = np.maximum(drawn[:, :-1], drawn[:, 1:])
     rgb = two.slot_colors[drawn].astype(np.float32)
-    made = textured(two, [Sighting(camera=camera, rgb=rgb, depth=gbuffer.depth, mask=gbuffer.hit)], np.array([True, True]))
+    made = textured(two, [Observation(camera=camera, rgb=rgb, depth=gbuffer.depth, mask=gbuffer.hit)], np.array([True, True]))
     colors, _, hit = colors_at(made, camera)
     expected = two.slot_colors[np.maximum(slot, 0)]
     assert np.abs(colors - expected)[hit].max() < 0.03

@@ -14,7 +14,7 @@ from wm.geometry.rays.raycast import build_ray_scene, cast
 from wm.offline.reconstruction.kinds import template_of
 from wm.offline.reconstruction.templates import built
 from wm.offline.style.theme import style_of
-from wm.synth.backends import SceneContext, Sighting
+from wm.synth.backends import Observation, SceneContext
 from wm.types import OUTSIDE, SceneObject
 
 THEME = "scandinavian flat"
@@ -58,7 +58,7 @@ def cameras(width: int = 160, height: int = 120):
     return [make_camera(np.array(eye), np.array(at), width=width, height=height, fov_deg=90.0) for eye, at in ends]
 
 
-def sightings(things: list[SceneObject], index: int, count: int = 2, noise: float = 0.003) -> tuple[Sighting, ...]:
+def observations(things: list[SceneObject], index: int, count: int = 2, noise: float = 0.003) -> tuple[Observation, ...]:
     """What `count` cameras show of one thing among others, with a little noise of depth."""
     scene = build_ray_scene(assemble_scene(bare().structure, things))
     rng = np.random.default_rng(5)
@@ -69,5 +69,5 @@ def sightings(things: list[SceneObject], index: int, count: int = 2, noise: floa
         depth = gbuffer.depth * (1 + noise * rng.normal(size=gbuffer.depth.shape)).astype(np.float32)
         grey = np.full((*depth.shape, 3), 0.5, np.float32)
         grey[owner == index] = (0.6, 0.3, 0.2)
-        found.append(Sighting(camera=camera, rgb=grey, depth=depth, mask=owner == index))
-    return tuple(sighting for sighting in found if sighting.mask.any())
+        found.append(Observation(camera=camera, rgb=grey, depth=depth, mask=owner == index))
+    return tuple(observation for observation in found if observation.mask.any())

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.synth.lifting.scenes import STYLE, bare, piece
-from tests.synth.recording import recorded
+from tests.synth.recording import Recording, recorded
 from wm.errors import InputError
 from wm.geometry.cameras.views import bootstrap_cameras
 from wm.geometry.mesh.scene_mesh import assemble_scene
@@ -17,7 +17,9 @@ from wm.geometry.placement.laws import violations
 from wm.geometry.placement.upright import transformed
 from wm.geometry.placement.upright_box import box_iou, box_of
 from wm.geometry.plan.site import room_site
+from wm.geometry.rays.pinhole import camera_center
 from wm.geometry.rays.raycast import build_ray_scene, cast
+from wm.offline.arrangement.furnishing import furnish_scene
 from wm.offline.reconstruction.templates import TemplateReconstruction
 from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
 from wm.synth.backends import (
@@ -26,11 +28,12 @@ from wm.synth.backends import (
     ImageDrivenBackend,
     ImageRequest,
     ImageResult,
+    ImaginingBackend,
     Segment,
     SegmentationBackend,
     make_backend,
 )  # fmt: skip
-from wm.synth.lifting.lifted import Models, lift_room
+from wm.synth.lifting.lifted import Models, lift_room, room_cameras
 from wm.types import OUTSIDE, View
 
 CONFIG = ObjectsConfig(name="lifted", image_width=240, image_height=180)
@@ -40,13 +43,13 @@ MODELS = ("image", "depth", "segmentation", "reconstruction")
 
 @functools.cache
 def lifted(room=1):
-    backend = make_backend("objects", CONFIG, bare()).with_models(COARSE, DepthConfig())
-    return backend, backend.lift(bare(), room)
+    with contextlib.closing(make_backend("objects", CONFIG, bare()).with_models(COARSE, DepthConfig())) as backend:
+        return backend.lift(bare(), room)
 
 
 def test_most_of_what_was_drawn_is_found_near_where_it_was_drawn():
-    backend, room = lifted()
-    truth = [thing for thing in backend.imagined(bare(), 1.0).objects if thing.room == 1]
+    room = lifted()
+    truth = [thing for thing in furnish_scene(bare()) if thing.room == 1]
     large = [thing for thing in truth if box_of(thing).volume > 0.05 and thing.support == "floor"]
     near = [max((box_iou(box_of(t), box_of(o)) for o in room.objects if o.label == t.label), default=0.0) for t in large]
     assert len(large) >= 3 and np.mean(np.array(near) > 0.3) >= 0.6
@@ -94,7 +97,7 @@ def test_photographs_with_depth_and_masks_are_lifted_without_knowing_what_was_dr
 
 
 def test_the_room_obeys_the_laws():
-    _, room = lifted()
+    room = lifted()
     assert violations(room.objects, room_site(bare().plan, 1)) == []
 
 
@@ -111,42 +114,27 @@ def copied(thing, others):
 
 def test_nothing_is_copied_from_the_generator():
     """Not even at another place and size. What is of one kind is built by one template, but for proportions and dice."""
-    backend, room = lifted()
-    truth = backend.imagined(bare(), 1.0).objects
+    room, truth = lifted(), furnish_scene(bare())
     assert not any(copied(thing, truth) for thing in room.objects)
     one, turn = truth[0], np.array([[0.6, -0.8, 0.0, 3.0], [0.8, 0.6, 0.0, -1.0], [0.0, 0.0, 1.0, 0.2], [0.0, 0.0, 0.0, 1.0]])
     larger = dataclasses.replace(one, vertices=1.3 * (one.vertices - one.T_world_object[:3, 3]) + one.T_world_object[:3, 3])
     assert copied(transformed(larger, turn), truth)  # it would be found
 
 
-def test_what_it_holds_is_of_the_context_and_the_density_that_it_is_asked_for():
-    """Contexts are told apart by identity: two that are equal but for the seed have the same plan, theme and structure."""
-    backend = make_backend("objects", CONFIG, bare())
-    other = dataclasses.replace(bare(), seed=bare().seed + 1)
-    asked = [(bare(), 1.0), (other, 1.0), (bare(), 0.0), (bare(), 1.0)]
-    scenes = [backend.imagined(context, density) for context, density in asked]
-    assert backend.imagined(*asked[-1]) is scenes[-1]
-    for (context, density), scene in zip(asked, scenes):
-        fresh = make_backend("objects", CONFIG, context).imagined(context, density)
-        assert [thing.vertices.tobytes() for thing in scene.objects] == [thing.vertices.tobytes() for thing in fresh.objects]
-    held = [{thing.vertices.tobytes() for thing in scene.objects} for scene in scenes]
-    assert held[0] != held[1] and held[0] != held[2] and held[0] == held[3]
-
-
 def test_its_models_end_with_it_and_with_the_scene_they_are_of():
     small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
     backend = make_backend("objects", small, bare()).with_models(COARSE, DepthConfig())
     backend.lift(bare(), 1)
-    first = backend._models
+    first = backend._held[1]
     backend.lift(bare(), 0)
-    assert backend._models is first
-    backend.imagined(dataclasses.replace(bare(), seed=9), 1.0)
+    assert backend._held[1] is first
+    backend.lift(dataclasses.replace(bare()), 1)
     view = View(bootstrap_cameras(bare().plan, build_ray_scene(bare().structure), 1, CameraSettings())[0], 1, "bootstrap", "v")
     with pytest.raises(RuntimeError, match="shutdown"):
         first.image.prefetch([view])
     backend.close()
     backend.close()
-    assert backend._models is None
+    assert backend._held is None
 
 
 def test_all_of_its_models_are_the_selected_ones_and_closed(monkeypatch):
@@ -171,16 +159,68 @@ def test_an_image_model_that_tells_nothing_is_refused_before_it_is_made(monkeypa
     image = dataclasses.replace(COARSE, name="recording")
     backend = make_backend("objects", CONFIG, bare()).with_models(image, DepthConfig(name=depth))
     with pytest.raises(InputError, match=rf"^{named}objects\.segmentation='drawn'.*image\.name='recording'"):
-        backend.furnish(bare(), 1, density=1.0)
+        backend.furnish(bare(), 1)
     assert log == []
 
 
 @pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes():
-    _, room = lifted()
-    again = make_backend("objects", CONFIG, bare()).with_models(COARSE, DepthConfig()).furnish(bare(), 1, density=1.0)
+    room = lifted()
+    again = make_backend("objects", CONFIG, bare()).with_models(COARSE, DepthConfig()).furnish(bare(), 1)
     assert [thing.vertices.tobytes() for thing in again] == [thing.vertices.tobytes() for thing in room.objects]
     assert [thing.slot_colors.tobytes() for thing in again] == [thing.slot_colors.tobytes() for thing in room.objects]
+
+
+def camera_keys(cameras):
+    return [np.asarray(camera.T_cam_world).tobytes() for camera in cameras]
+
+
+@dataclasses.dataclass(frozen=True)
+class Imagining:
+    """An image model that says what it will draw."""
+
+    furniture: tuple
+
+    def generate(self, request: ImageRequest) -> ImageResult:
+        return ImageResult(rgb=np.full((request.view.camera.height, request.view.camera.width, 3), 0.5, np.float32))
+
+    def imagined(self):
+        return self.furniture
+
+
+def test_cameras_give_way_to_furniture_that_the_image_model_imagines_and_to_no_other():
+    structure = build_ray_scene(bare().structure)
+    settings = CameraSettings(width=CONFIG.image_width, height=CONFIG.image_height, fov=CONFIG.fov)
+    empty = bootstrap_cameras(bare().plan, structure, 0, settings)
+    x, y, _ = camera_center(empty[0])
+    wardrobe = piece("wardrobe", float(x), float(y), math.pi, (1.3, 0.6, 2.0))
+    moved = room_cameras(bare(), 0, Imagining((wardrobe,)), CONFIG)
+    assert camera_keys(moved) != camera_keys(empty)
+    inside = np.abs(camera_center(moved[0])[:2] - box_of(wardrobe).center) < [0.65, 0.3]
+    assert not inside.all()
+    assert camera_keys(room_cameras(bare(), 0, Imagining(()), CONFIG)) == camera_keys(empty)
+    furnished = dataclasses.replace(bare(), objects=(wardrobe,))
+    assert camera_keys(room_cameras(furnished, 0, Photographs([wardrobe]), CONFIG)) == camera_keys(empty)
+
+
+def test_an_image_model_that_imagines_nothing_and_tells_nothing_is_shown_the_empty_room(monkeypatch):
+    """Its requests show the bare structure, from the cameras of the empty room, and it is made for a scene without furniture."""
+    log = recorded(monkeypatch, "image", "depth", "segmentation", draws=False)
+    monkeypatch.setattr(Recording, "estimate", lambda self, result, *, seed: None)
+    image, depth = dataclasses.replace(COARSE, name="recording"), DepthConfig(name="recording")
+    small = dataclasses.replace(CONFIG, segmentation="recording", image_width=24, image_height=18)
+    with contextlib.closing(make_backend("objects", small, bare()).with_models(image, depth)) as backend:
+        for room in (0, 1):
+            assert backend.lift(bare(), room).objects == []
+        assert not isinstance(backend._held[1].image, ImaginingBackend)
+        assert backend._held[1].image.inner.scene.objects == ()
+    settings = CameraSettings(width=24, height=18, fov=CONFIG.fov)
+    structure = build_ray_scene(bare().structure)
+    empty = [camera for room in (0, 1) for camera in bootstrap_cameras(bare().plan, structure, room, settings)]
+    assert camera_keys(request.view.camera for request in log.requests) == camera_keys(empty)
+    for request in log.requests:
+        np.testing.assert_array_equal(request.condition.depth, cast(bare().structure, request.view.camera).depth)
+        assert request.reference is None
 
 
 def test_what_a_model_is_asked_is_what_it_is_shown(monkeypatch):
@@ -206,5 +246,5 @@ def test_what_a_model_is_asked_is_what_it_is_shown(monkeypatch):
 def test_it_is_image_driven_and_refuses_a_density_that_is_no_share():
     backend = make_backend("objects", CONFIG, bare())
     assert isinstance(backend, ImageDrivenBackend)
-    with pytest.raises(ValueError, match="density"):
-        backend.furnish(dataclasses.replace(bare()), 0, density=1.5)
+    with contextlib.closing(backend), pytest.raises(ValueError, match=r"furnish\.density is 1\.5"):
+        backend.furnish(dataclasses.replace(bare(), density=1.5), 0)

@@ -1,4 +1,4 @@
-"""Segments: what the offline segmenter spoils, what tidying mends, and which segments of two images are one thing."""
+"""Segments: what the offline segmenter spoils, and what tidying mends."""
 
 import numpy as np
 import pytest
@@ -6,13 +6,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy import ndimage
 
-from tests.synth.lifting.scenes import piece, sightings, site
-from wm.geometry.placement.upright_box import box_of
 from wm.offline.segmentation.drawn import DrawnSegmentation
 from wm.schema import ObjectsConfig
 from wm.synth.backends import ImageResult, Segment
 from wm.synth.lifting.segments import tidy_segments
-from wm.synth.lifting.sightings import gather, in_room, joined, sighting_points
 
 LABELS = ("chair", "chair", "vase", "sofa")
 
@@ -116,32 +113,3 @@ def test_pieces_part_unless_something_nearer_hides_what_is_between():
     hidden[:, 25:40] = 1.5
     assert len(tidy_segments([Segment("chair", two)], hidden, min_area=1e-3)) == 1
     assert len(tidy_segments([Segment("curtains", two)], FLAT, min_area=1e-3)) == 1
-
-
-def test_two_images_of_one_thing_are_one_and_of_two_things_two():
-    things = [piece("armchair", 2.2, 1.0, 0.4, (0.85, 0.84, 0.95)), piece("armchair", 2.8, 3.2, 2.0, (0.85, 0.84, 0.95))]
-    views = [[], []]
-    for k in range(2):
-        for n, sighting in enumerate(sightings(things, k)):
-            views[n].append((Segment("armchair", sighting.mask), sighting))
-    found = gather(views)
-    assert len(found) == 2 and all(len(thing.sightings) == 2 for thing in found)
-    for thing, truth in zip(found, things):
-        points = np.concatenate([sighting_points(s, limit=100, seed=0) for s in thing.sightings])
-        assert np.linalg.norm(np.median(points[:, :2], axis=0) - box_of(truth).center) < 0.4
-
-
-def test_reconstructions_that_share_space_are_joined():
-    thing = piece("armchair", 2.2, 1.0, 0.4, (0.85, 0.84, 0.95))
-    seen = sightings([thing], 0)
-    pairs = gather([[(Segment("armchair", seen[0].mask), seen[0])]]) + gather([[(Segment("armchair", seen[1].mask), seen[1])]])
-    together = joined(pairs, [box_of(thing), box_of(thing)])
-    assert len(together) == 1 and together[0][1] == (0, 1) and len(together[0][0].sightings) == 2
-    assert len(joined(pairs, [box_of(thing), None])) == 2
-
-
-def test_what_lies_beyond_a_door_is_not_in_the_room():
-    inside, beyond = (sightings([piece("chest", x, 3.1, 0.0, (0.9, 0.5, 0.5))], 0, 1) for x in (3.0, 6.2))
-    assert in_room(inside[0], site().polygon)
-    assert beyond and beyond[0].mask.sum() > 20  # it is seen
-    assert not in_room(beyond[0], site().polygon)

@@ -3,15 +3,15 @@
 An imagination is numbered; number 0 is the scene itself, the one whose held-out views count as the truth. The others differ in
 what is open: the finish of walls, floors and ceilings, and either the furniture inside each object's box or all of the furniture.
 A view's seed picks one, so that views disagree as those of an image model do, and every choice is a world that can be lit,
-which is baked once a room and not once a view.
+which is baked once a room and not once a view. Asked to furnish empty rooms, the model draws FURNISHED: the scene's
+finish, with the furniture that the offline objects backend would give it.
 """
 
 import dataclasses
 
 import numpy as np
 
-from wm.geometry.plan.site import room_site
-from wm.offline.arrangement.arrange import furnish_site, scene_object
+from wm.offline.arrangement.furnishing import furnish_room, furnish_scene
 from wm.offline.arrangement.inventory import ABSENT, FLAVOUR
 from wm.offline.arrangement.room_type import room_type
 from wm.offline.furniture import KINDS, bath, kitchen, make_piece
@@ -42,13 +42,16 @@ class Imagination:
     surfaces: int = 0
     furniture: int = 0
     boxed: bool = False  # other furniture in the scene's boxes; otherwise other furniture in other places
+    furnished: bool = False  # the offline objects backend's furniture in the place of the scene's
 
 
-SCENE = Imagination()
+SCENE, FURNISHED = Imagination(), Imagination(furnished=True)
 
 
 def imagined_scene(context: SceneContext, which: Imagination) -> SceneContext:
     """The scene of a world, which its finish does not change; without other furniture the scene itself."""
+    if which.furnished:
+        return dataclasses.replace(context, objects=furnish_scene(context))
     if not which.furniture:
         return context
     things = boxed_furniture if which.boxed else other_furniture
@@ -167,12 +170,8 @@ def other_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ..
     rng = _dice(context, number, 3)
     style = restyled(style_of(context.theme), rng)
     seed = int(rng.integers(2**31))
-    placed = [
-        scene_object(piece, index)
-        for index, room in enumerate(context.plan.rooms)
-        for piece in furnish_site(room_site(context.plan, index), room_type(room.name), style, seed=seed, room=index)
-    ]
-    return tuple(placed)
+    rooms = range(len(context.plan.rooms))
+    return tuple(thing for room in rooms for thing in furnish_room(context.plan, room, style, seed=seed))
 
 
 def _dice(context: SceneContext, number: int, purpose: int) -> np.random.Generator:

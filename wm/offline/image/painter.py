@@ -8,7 +8,8 @@ Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it 
 - Walls, floor and ceiling are finished as the scene's where X shows any of their texture; otherwise in some other way that the
   theme allows. Someone has to begin: where the scaffold hands texture on, a room's bootstrap views settle how it is finished, and
   that finish is the scene's. Where it hands none on nobody would see what they settled, and they invent as every other view does.
-- Asked to furnish an empty room, it has the scene's own furniture in mind, and finishes the room as the scene is.
+- Asked to furnish an empty room, it draws the furniture of the offline objects backend, and finishes the room as the scene is.
+  Only colours and shapes are read off such an image, so its world is coarser (COARSE).
 - Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
   while the world's fine detail is restored.
 Imperfections (wm.offline.image.imperfections) and violations of the structure (wm.offline.image.violations) come on top, at the
@@ -27,7 +28,7 @@ from scipy.ndimage import gaussian_filter
 
 from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.host import cores
-from wm.offline.image.imagination import SCENE, Imagination, imagined_scene, imagined_style
+from wm.offline.image.imagination import FURNISHED, SCENE, Imagination, imagined_scene, imagined_style
 from wm.offline.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
 from wm.offline.image.violations import Violation, draw_violation
 from wm.offline.world.room import bake_settings
@@ -35,7 +36,7 @@ from wm.offline.world.worker import Recipe, WorkerWorld
 from wm.offline.world.world import Shot, World
 from wm.schema import ImageConfig
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
-from wm.types import OUTSIDE, Camera, View
+from wm.types import OUTSIDE, Camera, SceneObject, View
 
 SURE = 0.85
 """How far known a pixel must be before its tone counts: below, the condition is part grey depth."""
@@ -53,6 +54,8 @@ PLANES = 0.05
 """Metres between planes of the structure that count as two surfaces: a pane lies deeper than that in its wall."""
 ELBOW_ROOM = 0.35
 """Metres between a camera and imagined furniture: a model draws a view, not the inside of a wardrobe."""
+COARSE = 0.04
+"""Metres between texels, at least, of the world that is drawn to furnish empty rooms; its edges are not supersampled."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -72,7 +75,7 @@ class ProceduralImages:
     config: ImageConfig
     _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
     _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
-    _scenes: dict[tuple[int, bool], SceneContext] = dataclasses.field(default_factory=dict)  # by what tells furniture apart
+    _scenes: dict[Imagination, SceneContext] = dataclasses.field(default_factory=dict)  # of imaginations in the scene's finish
     _sceneries: dict[Imagination, Scenery] = dataclasses.field(default_factory=dict)
     _lock: threading.RLock = dataclasses.field(default_factory=threading.RLock)
     _left_open: threading.Event = dataclasses.field(default_factory=threading.Event)  # by some condition so far
@@ -89,7 +92,7 @@ class ProceduralImages:
           ValueError: the condition's images are not of the camera's size.
         """
         _check_size(request.condition, request.view.camera)
-        which = SCENE if request.task == "furnish" else self._imagine(request)
+        which = FURNISHED if request.task == "furnish" else self._imagine(request)
         scenery, shot = self.scenery(which), self._shot(which, request.view).result()
         gone_wrong = self._violation(request, scenery, shot)
         shot = shot if gone_wrong is None else scenery.world.shoot(request.view.camera, gone_wrong.edit)
@@ -100,6 +103,14 @@ class ProceduralImages:
             drawn_object=shot.object.copy(),
             drawn_labels=scenery.world.labels,
         )
+
+    def imagined(self) -> Sequence[SceneObject]:
+        """The furniture that its answers to the task "furnish" show, of all rooms in world space.
+
+        Raises:
+          ValueError: the density that the scene wants is not a share.
+        """
+        return self._imagined(FURNISHED).objects
 
     def truth(self, view: View) -> Float[np.ndarray, "h w 3"]:
         """The exact world from a view's camera."""
@@ -142,9 +153,9 @@ class ProceduralImages:
     def _imagined(self, which: Imagination) -> SceneContext:
         """The scene of a world, furnished now if it is not yet. Which world a view is shown is chosen by it: no world is made."""
         with self._lock:
-            furniture = (which.furniture, which.boxed)
+            furniture = dataclasses.replace(which, surfaces=SCENE.surfaces)
             if furniture not in self._scenes:
-                self._scenes[furniture] = imagined_scene(self.scene, which)
+                self._scenes[furniture] = imagined_scene(self.scene, furniture)
             return self._scenes[furniture]
 
     def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
@@ -184,12 +195,15 @@ class ProceduralImages:
 
 def make(config: ImageConfig, context: SceneContext) -> ProceduralImages:
     """The offline image backend of a scene. Raises: ValueError for a texel size that is not a positive length."""
-    settings = bake_settings(config.texel_size)
+    fine, coarse = bake_settings(config.texel_size), bake_settings(max(config.texel_size, COARSE))
     apart = config.worker and cores() > 1 and os.name == "posix"
 
     def make_world(scene: SceneContext, which: Imagination) -> World | WorkerWorld:
         style = imagined_style(context, which)
-        recipe = Recipe(scene, supersampling=config.supersampling, settings=settings, style=style)
+        if which == FURNISHED:
+            recipe = Recipe(scene, supersampling=1, settings=coarse, style=style)
+        else:
+            recipe = Recipe(scene, supersampling=config.supersampling, settings=fine, style=style)
         return WorkerWorld(recipe, lanes=SHOTS_AT_ONCE) if apart else recipe.make()
 
     return ProceduralImages(scene=context, make_world=make_world, config=config)

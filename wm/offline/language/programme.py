@@ -7,7 +7,7 @@ import unicodedata
 import numpy as np
 
 from wm.offline.language.building import Building
-from wm.synth.room_names import room_sort
+from wm.synth.room_names import CONNECTING, room_sort
 
 CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private", "wet", "service"
 
@@ -22,29 +22,33 @@ class Kind:
     rank: float
 
 
+_ZONES = {
+    **dict.fromkeys(CONNECTING, CIRCULATION), "study": PRIVATE, "bedroom": PRIVATE, "bathroom": WET, "service": SERVICE,
+}  # fmt: skip
+"""Zones of sorts of rooms; the others are public."""
 _KINDS = {
-    kind.name: kind
-    for kind in (
-        Kind("corridor", (6.0, 14.0), CIRCULATION, 5.0),
-        Kind("hall", (14.0, 24.0), CIRCULATION, 0.0),
-        Kind("great hall", (28.0, 45.0), CIRCULATION, 0.0),
-        Kind("gallery", (18.0, 30.0), CIRCULATION, 1.0),
-        Kind("atrium", (30.0, 48.0), CIRCULATION, 0.0),
-        Kind("living", (22.0, 34.0), PUBLIC, 1.0),
-        Kind("dining", (15.0, 24.0), PUBLIC, 2.0),
-        Kind("kitchen", (12.0, 20.0), PUBLIC, 3.0),
-        Kind("conservatory", (16.0, 28.0), PUBLIC, 2.0),
-        Kind("leisure", (18.0, 28.0), PUBLIC, 4.0),
-        Kind("ballroom", (18.0, 28.0), PUBLIC, 4.0),
-        Kind("library", (18.0, 28.0), PUBLIC, 5.0),
-        Kind("workshop", (16.0, 26.0), PUBLIC, 5.0),
-        Kind("studio", (16.0, 26.0), PUBLIC, 5.0),
-        Kind("study", (10.0, 15.0), PRIVATE, 6.0),
-        Kind("bedroom", (12.0, 20.0), PRIVATE, 7.0),
-        Kind("bathroom", (5.0, 9.0), WET, 8.0),
-        Kind("service", (5.0, 8.0), SERVICE, 3.5),
-        Kind("room", (14.0, 22.0), PUBLIC, 4.0),
-        Kind("other", (14.0, 22.0), PUBLIC, 4.0),
+    name: Kind(name, area, _ZONES.get(name, PUBLIC), rank)
+    for name, area, rank in (
+        ("corridor", (6.0, 14.0), 5.0),
+        ("hall", (14.0, 24.0), 0.0),
+        ("great hall", (28.0, 45.0), 0.0),
+        ("gallery", (18.0, 30.0), 1.0),
+        ("atrium", (30.0, 48.0), 0.0),
+        ("living", (22.0, 34.0), 1.0),
+        ("dining", (15.0, 24.0), 2.0),
+        ("kitchen", (12.0, 20.0), 3.0),
+        ("conservatory", (16.0, 28.0), 2.0),
+        ("leisure", (18.0, 28.0), 4.0),
+        ("ballroom", (18.0, 28.0), 4.0),
+        ("library", (18.0, 28.0), 5.0),
+        ("workshop", (16.0, 26.0), 5.0),
+        ("studio", (16.0, 26.0), 5.0),
+        ("study", (10.0, 15.0), 6.0),
+        ("bedroom", (12.0, 20.0), 7.0),
+        ("bathroom", (5.0, 9.0), 8.0),
+        ("service", (5.0, 8.0), 3.5),
+        ("room", (14.0, 22.0), 4.0),
+        ("other", (14.0, 22.0), 4.0),
     )
 }
 

@@ -2,9 +2,7 @@
 
 import dataclasses
 
-from wm.geometry.plan.site import room_site
-from wm.offline.arrangement.arrange import furnish_site, scene_object
-from wm.offline.arrangement.room_type import room_type
+from wm.offline.arrangement.furnishing import furnish_room
 from wm.offline.style.theme import style_of
 from wm.schema import ObjectsConfig
 from wm.synth.backends import SceneContext
@@ -17,23 +15,16 @@ class ProceduralObjects:
 
     config: ObjectsConfig
 
-    def furnish(self, context: SceneContext, room: int, *, density: float = 1.0) -> list[SceneObject]:
+    def furnish(self, context: SceneContext, room: int) -> list[SceneObject]:
         """The objects of one room, placed in world space.
 
         Args:
           room: index into the plan's rooms.
-          density: 0..1, the share of the optional pieces that are tried.
 
         Raises:
-          ValueError: the density is not a share.
+          ValueError: the context's density is not a share.
         """
-        if not 0.0 <= density <= 1.0:
-            raise ValueError(f"furnish.density is {density}; it is the share of the optional pieces, between 0 and 1")
-        kind = room_type(context.plan.rooms[room].name)
-        placed = furnish_site(
-            room_site(context.plan, room), kind, style_of(context.theme), seed=context.seed, room=room, density=density
-        )
-        return [scene_object(p, room) for p in placed]
+        return furnish_room(context.plan, room, style_of(context.theme), seed=context.seed, density=context.density)
 
 
 def make(config: ObjectsConfig, context: SceneContext | None = None) -> ProceduralObjects:

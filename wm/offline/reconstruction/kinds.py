@@ -1,4 +1,4 @@
-"""Labels and furniture kinds: which parametric template a label asks for, and how large such a thing usually is."""
+"""Labels and furniture kinds: which parametric template stands for a label, and the sizes that it is built in."""
 
 import dataclasses
 import functools
@@ -6,24 +6,11 @@ import functools
 import numpy as np
 from jaxtyping import Float
 
-from wm.geometry.placement.support import naming_words
 from wm.offline.arrangement.inventory import lamp_sorts, with_lamp
 from wm.offline.furniture import KINDS, Piece, make_piece
 from wm.offline.style.finish import Style
+from wm.synth.lifting.vocabulary import sort_of
 
-_OTHER_WORDS = {
-    "couch": "sofa", "settee": "sofa", "loveseat": "sofa", "carpet": "rug", "painting": "picture", "poster": "picture",
-    "artwork": "picture", "drape": "curtains", "curtain": "curtains", "tv": "television", "refrigerator": "fridge",
-    "bookcase": "bookshelf", "cupboard": "wardrobe", "closet": "wardrobe", "tub": "bathtub", "sink": "washbasin",
-    "oven": "stove", "cooker": "stove", "monitor": "computer monitor", "lamp": "floor lamp", "table": "dining table",
-    "cabinet": "sideboard", "tree": "plant", "mat": "bath mat", "pouffe": "ottoman", "book": "pile of books",
-    "candle": "candles", "flower": "flowers", "bouquet": "flowers", "sconce": "wall sconce", "hood": "range hood",
-    "stand": "media bench", "island": "kitchen island", "counter": "kitchen counter", "sculpture": "statue",
-    "clock": "wall clock", "gear": "wall gears", "cog": "wall gears", "pipe": "wall pipes", "ivy": "wall ivy",
-    "trellis": "wall ivy", "hedge": "topiary",
-}  # fmt: skip
-"""What the last word of a label means where no kind is called so."""
-_KIND_BY_WORDS = {tuple(naming_words(kind)): kind for kind in KINDS}
 ANYTHING = "chest"
 """The template of a label that says nothing: a box with a lid."""
 
@@ -44,17 +31,9 @@ class Template:
 
 
 def kind_of(label: str) -> str:
-    """The furniture kind that a label names, by whole words: a key of KINDS."""
-    words = tuple(naming_words(label))
-    for start in range(len(words)):
-        if words[start:] in _KIND_BY_WORDS:
-            return _KIND_BY_WORDS[words[start:]]
-    return _OTHER_WORDS.get(words[-1], ANYTHING) if words else ANYTHING
-
-
-def largest_size(kind: str) -> Float[np.ndarray, "3"]:
-    """Width, depth and height, metres, of the largest of a kind."""
-    return np.array(KINDS[kind].high)
+    """The furniture kind whose template stands for a label: a key of KINDS."""
+    sort = sort_of(label)
+    return sort if sort in KINDS else ANYTHING
 
 
 def rebuilt(template: Template, size: Float[np.ndarray, "3"], rng: np.random.Generator | None = None) -> Piece:

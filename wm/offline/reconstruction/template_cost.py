@@ -23,7 +23,7 @@ from wm.geometry.plan.site import Site
 from wm.geometry.rays.pinhole import project_points
 from wm.offline.reconstruction.kinds import Template
 from wm.offline.reconstruction.template_surface import Surface, surface_of
-from wm.synth.backends import Sighting
+from wm.synth.backends import Observation
 
 OUTLIER = 0.1
 """Metres at which a distance counts as somebody else's point."""
@@ -51,13 +51,15 @@ class Evidence:
     template: Template
     surface: Surface
     points: np.ndarray  # [n, 3] world points seen
-    views: tuple[tuple[Sighting, np.ndarray], ...]  # each sighting with the distance to its mask, at half its resolution, pixels
+    views: tuple[tuple[Observation, np.ndarray], ...]  # each with the distance to its mask, at half its resolution, pixels
     site: Site
 
 
-def evidence_of(template: Template, points: Float[np.ndarray, "n 3"], sightings: Sequence[Sighting], site: Site) -> Evidence:
+def evidence_of(
+    template: Template, points: Float[np.ndarray, "n 3"], observations: Sequence[Observation], site: Site
+) -> Evidence:
     """What a template is fitted to."""
-    views = tuple((sighting, _distance_to(sighting.mask)) for sighting in sightings)
+    views = tuple((observation, _distance_to(observation.mask)) for observation in observations)
     return Evidence(template=template, surface=surface_of(template.piece), points=points, views=views, site=site)
 
 
@@ -116,16 +118,16 @@ def _seen_through(boxes: np.ndarray, evidence: Evidence) -> np.ndarray:
     turned = np.stack([c * local[..., 0] - s * local[..., 1], s * local[..., 0] + c * local[..., 1], local[..., 2]], axis=2)
     probes = (turned + boxes[:, None, :3]).reshape(-1, 3)
     worst, flat = np.zeros(len(probes)), evidence.template.support == "flat"
-    for sighting, outside in evidence.views:
-        pixels, z = project_points(sighting.camera, probes)
-        height, width = sighting.depth.shape
+    for observation, outside in evidence.views:
+        pixels, z = project_points(observation.camera, probes)
+        height, width = observation.depth.shape
         inside = (z > 0.1) & (pixels >= 0).all(axis=1) & (pixels < [width, height]).all(axis=1)
         x, y = np.where(inside[:, None], pixels, 0.0).astype(int).T
-        depth = sighting.depth[y, x]
+        depth = observation.depth[y, x]
         slack = 0.02 + 0.02 * depth
         before = np.maximum(depth - z - slack, 0.0) if not flat else np.where(np.abs(depth - z) < slack, np.inf, 0.0)
         apart = outside[y // 2, x // 2]
-        aside = np.maximum(apart - _STRAY, 0.0) * z / float(sighting.camera.focal[0])
+        aside = np.maximum(apart - _STRAY, 0.0) * z / float(observation.camera.focal[0])
         amount = np.minimum(aside, before) if flat else np.where(apart > 0, np.minimum(aside, before), before)
         worst = np.maximum(worst, np.where(inside & (depth > 0), amount, 0.0))
     return worst.reshape(len(boxes), -1)

@@ -4,8 +4,8 @@ In go a label, masked RGB with depth in metres, and the walls of the room; of th
 known. So it serves photographs and any image model as well as the offline one: where a depth model gives depth up to scale and
 shift, `wm.synth.lifting.metric_depth` makes it metric by the empty room.
 
-    sighting = Sighting(camera=camera, rgb=image, depth=metric_depth(estimate, bare, seed=0), mask=mask)
-    made = TemplateReconstruction(style_of("gothic castle")).reconstruct("oak armchair", [sighting], site, room, seed=0)
+    observation = Observation(camera=camera, rgb=image, depth=metric_depth(estimate, bare, seed=0), mask=mask)
+    made = TemplateReconstruction(style_of("gothic castle")).reconstruct("oak armchair", [observation], site, room, seed=0)
 """
 
 import dataclasses
@@ -17,16 +17,17 @@ import shapely
 from wm.geometry.placement.upright import transformed
 from wm.geometry.placement.upright_box import UprightBox
 from wm.geometry.plan.site import Site
+from wm.offline.furniture import KINDS
 from wm.offline.reconstruction.coloring import slot_colors
-from wm.offline.reconstruction.kinds import Template, kind_of, largest_size, rebuilt, templates_of
+from wm.offline.reconstruction.kinds import Template, kind_of, rebuilt, templates_of
 from wm.offline.reconstruction.template_cost import evidence_of
 from wm.offline.reconstruction.template_fit import fit_template
 from wm.offline.reconstruction.texturing import textured
 from wm.offline.style.finish import Style
 from wm.offline.style.theme import style_of
 from wm.schema import ObjectsConfig
-from wm.synth.backends import Reconstruction, SceneContext, Sighting
-from wm.synth.lifting.sightings import near_together, sighting_points, trimmed
+from wm.synth.backends import Observation, Reconstruction, SceneContext
+from wm.synth.lifting.observations import near_together, observation_points, trimmed
 from wm.types import SceneObject
 
 _POINTS = 240
@@ -46,32 +47,33 @@ class TemplateReconstruction:
     style: Style  # what the theme's words say of furniture
 
     def reconstruct(
-        self, label: str, sightings: Sequence[Sighting], site: Site, room: int, *, seed: int
+        self, label: str, observations: Sequence[Observation], site: Site, room: int, *, seed: int
     ) -> Reconstruction | None:
-        """One thing, in the frame of the first sighting's camera; None where fewer than a dozen points are seen, or none fits.
+        """One thing, in the frame of the first observation's camera; None where fewer than a dozen points are seen, or none fits.
 
         Args:
           label: what it is, in any words: the last that names a kind of furniture decides; a box with a lid where none does.
-          sightings: what each image shows of it; one is enough, two from opposite sides are better.
+          observations: what each image shows of it; one is enough, two from opposite sides are better.
           site: the room it stands in, which holds it: floor, ceiling and walls.
           room: index of the room, kept in the result.
           seed: of the points that are drawn from the masks, and of what no image decides.
         """
-        share = _POINTS // len(sightings)
-        points = np.concatenate([trimmed(sighting_points(s, limit=share, seed=seed)) for s in sightings])
-        points = near_together(points, largest_size(kind_of(label)))
+        kind = kind_of(label)
+        share = _POINTS // len(observations)
+        points = np.concatenate([trimmed(observation_points(s, limit=share, seed=seed)) for s in observations])
+        points = near_together(points, np.array(KINDS[kind].high))
         if len(points) < _LEAST:
             return None
-        templates = templates_of(kind_of(label), self.style)
-        fits = [fit_template(evidence_of(template, points, sightings, site)) for template in templates]
+        templates = templates_of(kind, self.style)
+        fits = [fit_template(evidence_of(template, points, observations, site)) for template in templates]
         template, fit = min(zip(templates, fits, strict=True), key=lambda pair: pair[1].cost)
         if not _plausible(fit.box, template, site):
             return None
         thing = built(label, template, fit.box, room, seed=seed)
-        colors, seen = slot_colors(thing, sightings)
-        colored = textured(dataclasses.replace(thing, slot_colors=colors), sightings, seen)
+        colors, seen = slot_colors(thing, observations)
+        colored = textured(dataclasses.replace(thing, slot_colors=colors), observations, seen)
         return Reconstruction(
-            thing=transformed(colored, np.asarray(sightings[0].camera.T_cam_world)),
+            thing=transformed(colored, np.asarray(observations[0].camera.T_cam_world)),
             seen=seen,
             usual=thing.slot_colors,
             residual=fit.residual,

@@ -8,7 +8,7 @@
 
 Only pixels inside the mask count, and only where the depth of the image is the thing's, and where no slot next to theirs has
 their colour rather: where the template is another than what was drawn, or a little beside it, nothing is smeared over it.
-Tiers of work: per thing, its texels and one tree of those seen; per sighting, one G-buffer of the thing alone, no larger than
+Tiers of work: per thing, its texels and one tree of those seen; per observation, one G-buffer of the thing alone, no larger than
 its mask.
 """
 
@@ -28,7 +28,7 @@ from wm.geometry.texture.accumulation import accumulate
 from wm.geometry.texture.atlas import build_atlas, texel_charts, texel_positions
 from wm.geometry.texture.chart_texture import chart_texture
 from wm.schema import TextureSettings
-from wm.synth.backends import Sighting
+from wm.synth.backends import Observation
 from wm.types import Atlas, GBuffer, Mesh, SceneObject, SurfaceKind, Texture
 
 _TEXELS = 1 << 17
@@ -49,16 +49,16 @@ _DARKEST = 0.01
 """Linear colour below which ratios say nothing."""
 
 
-def textured(thing: SceneObject, sightings: Sequence[Sighting], slots: Bool[np.ndarray, "s"]) -> SceneObject:
+def textured(thing: SceneObject, observations: Sequence[Observation], slots: Bool[np.ndarray, "s"]) -> SceneObject:
     """The thing with what images show of it on its surface, around the colours of its slots.
 
     Args:
-      thing: in the world of the sightings' cameras, its slots in the colours that the images show.
-      sightings: what each image shows of it.
+      thing: in the world of the observations' cameras, its slots in the colours that the images show.
+      observations: what each image shows of it.
       slots: which slots are textured; faces of the others keep their slot's colour.
     """
     mesh = _mesh_of(thing)
-    views = _views(thing, mesh, sightings)
+    views = _views(thing, mesh, observations)
     if not (views and slots.any()):
         return thing
     empty = _atlas(mesh, np.where(slots[thing.face_slot], thing.face_slot, -1), max(_FINEST, _footprint(views)))
@@ -85,49 +85,49 @@ def _mesh_of(thing: SceneObject) -> Mesh:
     )  # fmt: skip
 
 
-def _views(thing: SceneObject, mesh: Mesh, sightings: Sequence[Sighting]) -> list[tuple[Sighting, GBuffer, np.ndarray]]:
-    """(a sighting cut to its mask, the thing alone as its camera sees it, the pixels [h, w] that show that) where there are any.
+def _views(thing: SceneObject, mesh: Mesh, observations: Sequence[Observation]) -> list[tuple[Observation, GBuffer, np.ndarray]]:
+    """(an observation cut to its mask, the thing alone as its camera sees it, the pixels [h, w] that show it) if there are any.
 
     A mask's outermost pixels are left out: they mix the thing with what is behind it, and a ragged border shows that alone.
     """
     scene = build_ray_scene(mesh)
     views = []
-    for whole in (sighting for sighting in sightings if sighting.mask.any()):
-        sighting, aside = _cut(whole), max(1, round(_ASIDE * whole.camera.width))
-        gbuffer = cast(scene, sighting.camera)
-        agreed = np.abs(sighting.depth - gbuffer.depth) < 0.03 + 0.02 * gbuffer.depth
-        inner = np.asarray(ndimage.binary_erosion(sighting.mask, np.ones((3, 3), bool)), bool)
-        shown = gbuffer.hit & agreed & inner & ~_of_another(thing, sighting, gbuffer, aside)
-        views += [(sighting, gbuffer, shown)] if shown.any() else []
+    for whole in (observation for observation in observations if observation.mask.any()):
+        observation, aside = _cut(whole), max(1, round(_ASIDE * whole.camera.width))
+        gbuffer = cast(scene, observation.camera)
+        agreed = np.abs(observation.depth - gbuffer.depth) < 0.03 + 0.02 * gbuffer.depth
+        inner = np.asarray(ndimage.binary_erosion(observation.mask, np.ones((3, 3), bool)), bool)
+        shown = gbuffer.hit & agreed & inner & ~_of_another(thing, observation, gbuffer, aside)
+        views += [(observation, gbuffer, shown)] if shown.any() else []
     return views
 
 
-def _cut(sighting: Sighting) -> Sighting:
+def _cut(observation: Observation) -> Observation:
     """The part of an image that a mask is in."""
-    rows, columns = (np.flatnonzero(sighting.mask.any(axis=axis)) for axis in (1, 0))
+    rows, columns = (np.flatnonzero(observation.mask.any(axis=axis)) for axis in (1, 0))
     y, x = int(rows[0]), int(columns[0])
     window = slice(y, int(rows[-1]) + 1), slice(x, int(columns[-1]) + 1)
-    mask, camera = sighting.mask[window], sighting.camera
+    mask, camera = observation.mask[window], observation.camera
     height, width = mask.shape
     camera = dataclasses.replace(camera, principal=np.asarray(camera.principal) - [x, y], width=width, height=height)
-    return Sighting(camera=camera, rgb=sighting.rgb[window], depth=sighting.depth[window], mask=mask)
+    return Observation(camera=camera, rgb=observation.rgb[window], depth=observation.depth[window], mask=mask)
 
 
-def _of_another(thing: SceneObject, sighting: Sighting, gbuffer: GBuffer, aside: int) -> np.ndarray:
+def _of_another(thing: SceneObject, observation: Observation, gbuffer: GBuffer, aside: int) -> np.ndarray:
     """[h, w] pixels that have rather the colour of another slot, which lies so many pixels aside."""
     colors = np.concatenate([thing.slot_colors, np.full((1, 3), np.inf, np.float32)])
     slot = np.append(thing.face_slot, np.int32(len(thing.slots)))[gbuffer.face]
-    own = ((sighting.rgb - colors[slot]) ** 2).sum(axis=2)
+    own = ((observation.rgb - colors[slot]) ** 2).sum(axis=2)
     found = np.zeros(slot.shape, bool)
     for y, x in itertools.product((0, aside, 2 * aside), repeat=2):
         other = np.pad(slot, aside, mode="edge")[y:, x:][: slot.shape[0], : slot.shape[1]]
-        found |= (other != slot) & (((sighting.rgb - colors[other]) ** 2).sum(axis=2) < own)
+        found |= (other != slot) & (((observation.rgb - colors[other]) ** 2).sum(axis=2) < own)
     return found
 
 
-def _footprint(views: list[tuple[Sighting, GBuffer, np.ndarray]]) -> float:
+def _footprint(views: list[tuple[Observation, GBuffer, np.ndarray]]) -> float:
     """Metres across a pixel where the nearest image shows the thing."""
-    return min(float(np.median(gbuffer.depth[shown]) / np.min(sighting.camera.focal)) for sighting, gbuffer, shown in views)
+    return min(float(np.median(gbuffer.depth[shown]) / np.min(observation.camera.focal)) for observation, gbuffer, shown in views)
 
 
 def _atlas(mesh: Mesh, surface: np.ndarray, texel: float) -> Atlas:

@@ -1,14 +1,14 @@
 """The image-driven objects backend: an image model draws each room furnished, and what it drew is lifted into the scaffold.
 
-    D0      depth of the empty room from its two bootstrap cameras (the paper has one: what stands behind it is lost)
-    I_obj   what the image model makes of D0
-    D       the depth of I_obj by a depth model, made metric where the image still shows the room
-    things  segments of each image, those of both that show one thing together
-    mesh    each thing reconstructed in its first camera's frame
-    room    all of them placed
+    D0         depth of the empty room from its two bootstrap cameras (the paper has one: what stands behind it is lost)
+    I_obj      what the image model makes of D0
+    D          the depth of I_obj by a depth model, made metric where the image still shows the room
+    instances  segments of each image; those of both images that show the same thing are one instance
+    mesh       each instance reconstructed in the frame of its first camera
+    room       all of them placed
 
-The offline image model draws the generator's furniture in the exact world; where its furniture would stand in a camera's way,
-the camera gives way.
+The image model is shown the empty room, and nothing else of the scene is known here. The cameras are those of the empty room too,
+unless the image model is an ImaginingBackend: then they are kept clear of the furniture that it says it will draw.
 Source: WorldMesh, "Object Instantiation" and supplement, "Object Segmentation", "Object Placement".
 """
 
@@ -25,7 +25,6 @@ from wm.geometry.placement.upright import levelled, transformed
 from wm.geometry.placement.upright_box import box_of
 from wm.geometry.plan.site import Site, room_site
 from wm.geometry.rays.raycast import RayScene, build_ray_scene, cast
-from wm.offline.objects.generator import ProceduralObjects
 from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
 from wm.synth.backends import (
     Condition,
@@ -33,12 +32,13 @@ from wm.synth.backends import (
     ImageBackend,
     ImageRequest,
     ImageResult,
+    ImaginingBackend,
+    Observation,
     Reconstruction,
     ReconstructionBackend,
     SceneContext,
     Segment,
     SegmentationBackend,
-    Sighting,
     close_backend,
     make_backend,
     mismatch,
@@ -46,20 +46,17 @@ from wm.synth.backends import (
 from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.condition import depth_grey
 from wm.synth.lifting.metric_depth import metric_depth
+from wm.synth.lifting.observations import Instance, gather, in_room, joined
 from wm.synth.lifting.segments import tidy_segments
-from wm.synth.lifting.sightings import Thing, gather, in_room, joined
 from wm.synth.lifting.unlit import unlit
 from wm.synth.prompts import furnish_prompt
 from wm.synth.sights import sights
 from wm.types import Camera, SceneObject, View
 
-_COARSE = 0.04
-"""Metres between texels of the offline world that a room is lifted from: only colours are read off it."""
-
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Models:
-    """What a room is lifted with."""
+    """The backends that lift a room."""
 
     image: ImageBackend
     depth: DepthBackend
@@ -69,7 +66,7 @@ class Models:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Drawing:
-    """An image of the furnished room and what was made of it."""
+    """An image of the furnished room, its depth and its segments."""
 
     camera: Camera
     result: ImageResult
@@ -82,7 +79,7 @@ class LiftedRoom:
     """A room's furniture, and the steps on the way to it."""
 
     drawings: tuple[Drawing, ...]
-    things: tuple[SceneObject, ...]  # in the world, as reconstructed
+    things: tuple[SceneObject, ...]  # the instances in world space, as reconstructed
     placement: Placement
 
     @property
@@ -97,84 +94,70 @@ class LiftedObjects:
         self.config = config
         self._image = image or ImageConfig()
         self._depth = depth or DepthConfig()
-        self._latest: _Imagined | None = None
-        self._models: Models | None = None  # of the latest scene
+        self._held: tuple[SceneContext, Models] | None = None
 
     def with_models(self, image: ImageConfig, depth: DepthConfig) -> "LiftedObjects":
         """A backend with the same settings, its images drawn and their depth estimated by these."""
         return LiftedObjects(self.config, image=image, depth=depth)
 
-    def furnish(self, context: SceneContext, room: int, *, density: float = 1.0) -> list[SceneObject]:
+    def furnish(self, context: SceneContext, room: int) -> list[SceneObject]:
         """The objects of one room, placed in world space.
 
         Raises:
-          ValueError: the density is not a share, or the room has no free spot for a camera.
+          InputError: the selected models do not go together.
+          ValueError: the room has no free spot for a camera, or the image model refuses the scene.
         """
-        return self.lift(context, room, density=density).objects
+        return self.lift(context, room).objects
 
-    def lift(self, context: SceneContext, room: int, *, density: float = 1.0) -> LiftedRoom:
+    def lift(self, context: SceneContext, room: int) -> LiftedRoom:
         """The objects of one room, and how they came about."""
-        imagined = self.imagined(context, density)
-        if self._models is None:
-            self._models = self.models(imagined)
-        settings = CameraSettings(width=self.config.image_width, height=self.config.image_height, fov=self.config.fov)
-        scene = build_ray_scene(assemble_scene(imagined.structure, imagined.objects))
-        cameras = bootstrap_cameras(context.plan, scene, room, settings)
-        return lift_room(context, room, cameras, self._models, self.config)
-
-    def imagined(self, context: SceneContext, density: float) -> SceneContext:
-        """The scene that the offline image model has in mind: the generator's furniture in every room."""
-        latest = self._latest
-        if latest is None or latest.context is not context or latest.density != density:
+        if self._held is None or self._held[0] is not context:
             self.close()
-            generator = ProceduralObjects(self.config)
-            rooms = range(len(context.plan.rooms))
-            objects = [thing for room in rooms for thing in generator.furnish(context, room, density=density)]
-            latest = _Imagined(context, density, furnished=dataclasses.replace(context, objects=tuple(objects)))
-            self._latest = latest
-        return latest.furnished
+            self._held = context, self.models(context)
+        models = self._held[1]
+        return lift_room(context, room, room_cameras(context, room, models.image, self.config), models, self.config)
 
-    def models(self, imagined: SceneContext, image: ImageBackend | None = None) -> Models:
-        """The selected models, of images the one given if there is one. Whoever asks for them closes them.
+    def models(self, context: SceneContext, image: ImageBackend | None = None) -> Models:
+        """The selected models for a scene, with `image` for the image model if it is given. The caller closes them.
 
         Raises:
-          InputError: the selected ones do not go together.
+          InputError: the selected models do not go together.
         """
         if image is None:
             faults = mismatch("depth", self._depth, self._image) + mismatch("segmentation", self.config, self._image)
             if faults:
                 raise InputError("; ".join(faults))
         return Models(
-            image=image if image is not None else _image_model(self._image, imagined),
-            depth=make_backend("depth", self._depth, imagined),
-            segmentation=make_backend("segmentation", self.config, imagined),
-            reconstruction=make_backend("reconstruction", self.config, imagined),
+            image=image if image is not None else make_backend("image", self._image, context),
+            depth=make_backend("depth", self._depth, context),
+            segmentation=make_backend("segmentation", self.config, context),
+            reconstruction=make_backend("reconstruction", self.config, context),
         )
 
     def close(self) -> None:
-        """Ends what it holds; furnishing again makes it anew."""
-        models, self._latest, self._models = self._models, None, None
+        """Ends the models that it holds. Furnishing again makes new ones."""
+        held, self._held = self._held, None
+        if held is None:
+            return
+        models = held[1]
         with contextlib.ExitStack() as done:
-            for backend in () if models is None else (models.image, models.depth, models.segmentation, models.reconstruction):
+            for backend in (models.image, models.depth, models.segmentation, models.reconstruction):
                 done.callback(close_backend, backend)
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class _Imagined:
-    """What a scene was furnished with at a density."""
+def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: ObjectsConfig) -> list[Camera]:
+    """The bootstrap cameras that a room is drawn from, clear of the furniture that the image model says it will draw.
 
-    context: SceneContext
-    density: float
-    furnished: SceneContext
-
-
-def _image_model(config: ImageConfig, imagined: SceneContext) -> ImageBackend:
-    coarse = dataclasses.replace(config, texel_size=max(config.texel_size, _COARSE), supersampling=1)
-    return make_backend("image", coarse, imagined)
+    Raises:
+      ValueError: the room has no free spot for a camera.
+    """
+    furniture = image.imagined() if isinstance(image, ImaginingBackend) else ()
+    settings = CameraSettings(width=config.image_width, height=config.image_height, fov=config.fov)
+    return bootstrap_cameras(context.plan, build_ray_scene(assemble_scene(context.structure, furniture)), room, settings)
 
 
 def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: ObjectsConfig) -> LiftedRoom:
-    """One room, drawn from these cameras, segmented, reconstructed and placed."""
+    """One room drawn from these cameras, segmented, reconstructed and placed."""
     bare = build_ray_scene(context.structure)
     site = room_site(context.plan, room)
     drawings = []
@@ -182,29 +165,29 @@ def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: M
         seed = _seed(context.seed, room, k)
         drawing = draw(context, room, camera, bare, models, config, reference=drawings[0] if drawings else None, seed=seed)
         drawings += [drawing] if drawing is not None else []
-    found = [[(segment, _sighting(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
-    things = gather([[pair for pair in pairs if in_room(pair[1], site.polygon)] for pairs in found])
-    reconstructions = _reconstructed(context, room, site, things, models.reconstruction)
+    found = [[(segment, _observation(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
+    instances = gather([[pair for pair in pairs if in_room(pair[1], site.polygon)] for pairs in found])
+    reconstructions = _reconstructed(context, room, site, instances, models.reconstruction)
     in_world = unlit(reconstructions)
     return LiftedRoom(drawings=tuple(drawings), things=tuple(in_world), placement=place_objects(in_world, site))
 
 
 def _reconstructed(
-    context: SceneContext, room: int, site: Site, things: list[Thing], backend: ReconstructionBackend
+    context: SceneContext, room: int, site: Site, instances: list[Instance], backend: ReconstructionBackend
 ) -> list[Reconstruction]:
-    """Each thing in the world; those that turn out to be one are reconstructed again, together."""
+    """Each instance in world space. Those whose reconstructions turn out to be one instance are reconstructed again together."""
 
-    def made(thing: Thing, number: int) -> Reconstruction | None:
+    def made(instance: Instance, number: int) -> Reconstruction | None:
         seed = _seed(context.seed, room, 100 + number)
-        result = backend.reconstruct(thing.label, thing.sightings, site, room, seed=seed)
+        result = backend.reconstruct(instance.label, instance.observations, site, room, seed=seed)
         if result is None:
             return None
-        T_world_cam = np.linalg.inv(np.asarray(thing.sightings[0].camera.T_cam_world, np.float64))
+        T_world_cam = np.linalg.inv(np.asarray(instance.observations[0].camera.T_cam_world, np.float64))
         return dataclasses.replace(result, thing=transformed(result.thing, T_world_cam))
 
-    first = [made(thing, k) for k, thing in enumerate(things)]
-    groups = joined(things, [box_of(levelled(result.thing)) if result is not None else None for result in first])
-    results = [first[group[0]] if len(group) == 1 else made(thing, group[0]) for thing, group in groups]
+    first = [made(instance, k) for k, instance in enumerate(instances)]
+    groups = joined(instances, [box_of(levelled(result.thing)) if result is not None else None for result in first])
+    results = [first[group[0]] if len(group) == 1 else made(instance, group[0]) for instance, group in groups]
     return [result for result in results if result is not None]
 
 
@@ -212,7 +195,7 @@ def draw(
     context: SceneContext, room: int, camera: Camera, bare: RayScene, models: Models, config: ObjectsConfig,
     *, reference: Drawing | None, seed: int,
 ) -> Drawing | None:  # fmt: skip
-    """One image of the room with its segments; None where its depth cannot be told."""
+    """One image of the room furnished, with its segments; None if its depth cannot be made metric."""
     gbuffer = cast(bare, camera)
     grey = depth_grey(gbuffer, (0.0, max(float(gbuffer.depth.max()), 1e-3)))
     condition = Condition(
@@ -239,8 +222,8 @@ def draw(
     return Drawing(camera=camera, result=result, depth=depth, segments=segments)
 
 
-def _sighting(drawing: Drawing, segment: Segment) -> Sighting:
-    return Sighting(camera=drawing.camera, rgb=drawing.result.rgb, depth=drawing.depth, mask=segment.mask)
+def _observation(drawing: Drawing, segment: Segment) -> Observation:
+    return Observation(camera=drawing.camera, rgb=drawing.result.rgb, depth=drawing.depth, mask=segment.mask)
 
 
 def _seed(*numbers: int) -> int:
@@ -248,5 +231,5 @@ def _seed(*numbers: int) -> int:
 
 
 def make(config: ObjectsConfig, context: SceneContext | None = None) -> LiftedObjects:
-    """The image-driven backend, with the offline image and depth models until it is given others."""
+    """The image-driven backend. Its image and depth models are the default ones until `with_models` is called."""
     return LiftedObjects(config)

@@ -1,4 +1,4 @@
-"""Relative depth made metric: the empty room's depth D0 is known, and most of an image still shows that room.
+"""Relative depth made metric: the empty room's depth D0 is known, and a furnished image still shows much of that room.
 
 A depth model gives e with D = a e + b up to a slowly varying error. Where the image shows structure, D must be D0, and
 elsewhere D < D0. So (a, b) comes from the pair of pixels that most pixels agree with (RANSAC), refined by least squares over

@@ -1,6 +1,6 @@
-"""Tidying segments: small ones are discarded, overlaps of one kind merged, pieces that do not hang together split.
+"""Tidying segments: small ones are discarded, overlapping ones of one label merged, and unconnected pieces split.
 
-Two pieces of one segment are still one thing if what lies between them in the image is nearer: a sofa behind a table.
+Two pieces of one segment stay one instance if what lies between them in the image is nearer, as with a sofa behind a table.
 Source: WorldMesh, supplement, "Object Segmentation"; the rule about what lies between is ours.
 """
 
@@ -12,7 +12,7 @@ from wm.geometry.placement.support import is_plural, is_structure
 from wm.synth.backends import Segment
 
 _SAME = 0.5
-"""Share of the smaller of two masks in the larger from which they are one thing."""
+"""Share of the smaller of two masks in the larger from which they are one instance."""
 _NEARER = 0.03
 """Relative depth by which something must be nearer to hide what is behind it."""
 _HIDDEN = 0.7
@@ -20,7 +20,7 @@ _HIDDEN = 0.7
 
 
 def tidy_segments(segments: list[Segment], depth: Float[np.ndarray, "h w"], *, min_area: float) -> list[Segment]:
-    """Segments fit for reconstruction, large before small; in whatever order they come, and tidied twice, the same.
+    """Segments fit for reconstruction, large before small. Neither their order nor tidying them twice changes the result.
 
     Args:
       depth: z-depth of the image, metres.
@@ -34,12 +34,12 @@ def tidy_segments(segments: list[Segment], depth: Float[np.ndarray, "h w"], *, m
 
 
 def _rank(segment: Segment) -> tuple[int, str, bytes]:
-    """Large before small; what is equally large has an order too, so that the one in which segments come decides nothing."""
+    """Large before small. Segments of equal size are ordered too, so that the order in which they come decides nothing."""
     return -int(segment.mask.sum()), segment.label, np.packbits(segment.mask).tobytes()
 
 
 def _merged(segments: list[Segment]) -> list[Segment]:
-    """Masks of one label that mostly cover each other, joined; each pixel then belongs to the smallest thing that claims it."""
+    """Masks of one label that mostly cover each other are joined. Each pixel then belongs to the smallest segment that has it."""
     joined: list[Segment] = []
     for segment in segments:
         for k, other in enumerate(joined):
@@ -58,7 +58,7 @@ def _merged(segments: list[Segment]) -> list[Segment]:
 
 
 def _split(segment: Segment, depth: np.ndarray, least: float) -> list[Segment]:
-    """The components of a segment, those together that something nearer may part; a plural (curtains) is one all the same."""
+    """Connected parts of a segment; those that something nearer may separate stay together, and all of a plural (curtains)."""
     if is_plural(segment.label):
         return [segment] if segment.mask.sum() >= least else []
     labels = np.zeros(segment.mask.shape, np.int32)

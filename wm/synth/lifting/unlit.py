@@ -1,8 +1,8 @@
-"""The colours of surfaces, told apart from the light that images show them in.
+"""Colours of surfaces, separated from the light that images show them in.
 
-Reconstructed things come in the colours of lit surfaces; the scaffold wants the colours of the surfaces. What light did is what
-all things of a room have in common: the median ratio, per channel and in linear light, of the colours seen to the usual colours
-of the same materials.
+Reconstructed instances have the colours of lit surfaces, and the scaffold needs the colours of the surfaces themselves. The light
+is estimated as what all instances in a room have in common: the median over their slots, per channel and in linear light, of the
+ratio of the colour seen to the usual colour of the same material.
 """
 
 import dataclasses
@@ -16,7 +16,7 @@ from wm.types import SceneObject
 
 
 def unlit(things: Sequence[Reconstruction]) -> list[SceneObject]:
-    """The things with the colours of their surfaces instead of their colours in the room's light."""
+    """The instances with the colours of their surfaces instead of their colours in the room's light."""
     ratios = [
         to_linear(item.thing.slot_colors[item.seen]) / np.maximum(to_linear(item.usual[item.seen]), 0.01) for item in things
     ]
@@ -35,5 +35,5 @@ def _without(item: Reconstruction, light: np.ndarray) -> SceneObject:
 
 
 def _surface(colors: np.ndarray, light: np.ndarray) -> np.ndarray:
-    """Colours [..., 3] that surfaces have which show these in a light."""
+    """sRGB colours [..., 3] of the surfaces that show `colors` in this light."""
     return to_srgb(np.clip(to_linear(colors) / light, 0.0, 0.92).astype(np.float32))
