@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wm.artifacts import ArtifactError, digest, identity, open_run_folder, write_atomically
-from wm.schema import ImageConfig, ReportConfig, RunConfig
+from wm.offline.image.painter import Settings as ImageSettings
+from wm.schema import ReportConfig, RunConfig
 
 HEADER = {"seed": 0, "config": {"fit": {"steps": 10}}}
 
@@ -173,7 +174,7 @@ def test_digest_tells_arrays_apart_by_shape_and_type():
 
 def test_what_changes_no_result_is_no_part_of_a_key():
     run = RunConfig()
-    parts = {"image": ImageConfig(worker=False), "report": ReportConfig(enabled=False)}
+    parts = {"image": ImageSettings(worker=False), "report": ReportConfig(enabled=False)}
     beside = RunConfig(**parts, output="x", reuse=False, overwrite=True, workers=None, debug=True)
     assert digest(run) == digest(beside) != digest(RunConfig(seed=1))
     assert digest(ReportConfig()) != digest(ReportConfig(enabled=False))  # of the report itself it is

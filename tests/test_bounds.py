@@ -18,7 +18,6 @@ from wm.run import load_config
 from wm.schema import BESIDE, RunConfig
 from wm.splat.optimization.checks import check_fit
 from wm.splat.rasterizer.checks import check_raster
-from wm.synth.backends import CHOICES
 from wm.validate import ConfigError, validate_config
 
 
@@ -88,7 +87,7 @@ def test_every_setting_says_in_a_sentence_what_it_is_for():
 def test_the_configuration_and_a_record_refuse_the_same_numbers(wrong):
     key, value = wrong
     with pytest.raises(ConfigError, match=re.escape(f"{key}={value!r}: must be a number from {BOUNDED[key].span}")):
-        validate_config(with_value(CONFIG, key, value), backends=CHOICES)
+        validate_config(with_value(CONFIG, key, value))
     record, name = holder(key)
     said = f"it.{name} is {value!r}; a number in {BOUNDED[key].interval} would be right"
     with pytest.raises(ValueError, match=re.escape(said)):
@@ -109,7 +108,7 @@ def test_the_engine_takes_all_that_the_configuration_takes(key):
     bounds, (record, name) = BOUNDED[key], holder(key)
     for value in (bounds.low, math.nextafter(bounds.high, bounds.low) if bounds.below else bounds.high):
         value = type(getattr(record, name))(value)
-        validate_config(with_value(CONFIG, key, value), backends=CHOICES)
+        validate_config(with_value(CONFIG, key, value))
         ENGINE[key.partition(".")[0]][0](with_value(record, name, value))
 
 
@@ -124,14 +123,14 @@ def test_an_integer_is_asked_for_where_only_integers_will_do():
     with pytest.raises(ValueError, match=re.escape("fit.batch is 1.0; an integer in [1, 1000] would be right")):
         check_fit(record)
     with pytest.raises(ConfigError, match=r"fit\.batch=1\.0: must be an integer from 1 to 1000"):
-        validate_config(with_value(CONFIG, "fit.batch", 1.0), backends=CHOICES)
+        validate_config(with_value(CONFIG, "fit.batch", 1.0))
     check_raster(with_value(CONFIG.raster, "blur", np.float32(0.5)))
 
 
 def test_none_stands_for_a_number_only_where_it_means_something():
-    validate_config(with_value(CONFIG, "workers", None), backends=CHOICES)
+    validate_config(with_value(CONFIG, "workers", None))
     with pytest.raises(ConfigError, match="seed=None: must be"):
-        validate_config(with_value(CONFIG, "seed", None), backends=CHOICES)
+        validate_config(with_value(CONFIG, "seed", None))
 
 
 def test_faults_are_found_in_records_of_any_class_that_a_configuration_holds():
@@ -148,7 +147,7 @@ def test_faults_are_found_in_records_of_any_class_that_a_configuration_holds():
     config = with_value(CONFIG, "depth", Backend(size=1.0, inner=Inner(shape="square")))
     said = "depth.size=1.0: must be a number from 0 to below 1; depth.inner.shape='square': choose one of round, flat"
     with pytest.raises(ConfigError, match=f"^{re.escape(said)}$"):
-        validate_config(config, backends=CHOICES)
+        validate_config(config)
 
 
 def test_a_number_that_changes_no_result_keeps_its_bounds():

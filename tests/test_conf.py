@@ -5,11 +5,11 @@ import functools
 
 import pytest
 
-from tests.synth.recording import recorded
+from tests.synth.recording import recorded, with_recording
 from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
-from wm.schema import BACKEND_KEYS, RunConfig
-from wm.synth.backends import CHOICES
+from wm.schema import RunConfig
+from wm.synth.registry import GROUPS, backend_module, mismatches
 from wm.validate import ConfigError, validate_config
 
 SCENES = {"gothic": 6, "scandinavian": 4, "beach_house": None, "roman_estate": None, "clockwork_garden": None}
@@ -23,7 +23,14 @@ VARIANTS = {
     "no_depth_loss": {"fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
     "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
 }
-PROFILES = {"image": {"like_closed", "like_distilled"}}  # files of a group that select a backend another file selects too
+CHOICES = {
+    "language": {"grammar"},
+    "image": {"procedural", "like_closed", "like_distilled"},
+    "objects": {"procedural", "lifted"},
+    "depth": {"procedural"},
+    "segmentation": {"drawn"},
+    "reconstruction": {"templates"},
+}
 FLAWS = ("drift", "exposure", "phase", "softness", *KINDS)
 PRESETS = {"draft": (344, 192), "standard": (688, 384), "paper": (1376, 768)}
 
@@ -43,10 +50,14 @@ def test_the_groups_offer_what_they_should():
     assert set(options("scene")) == set(SCENES)
     assert set(options("variant")) == set(VARIANTS)
     assert set(options("preset")) == set(PRESETS)
-    assert set(BACKEND_KEYS) == set(CHOICES)
-    for group, names in CHOICES.items():
-        if BACKEND_KEYS[group] == f"{group}.name":  # the others are fields of another group
-            assert set(options(group)) == set(names) | PROFILES.get(group, set())
+    assert {group: set(options(group)) for group in GROUPS} == CHOICES
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_every_choice_of_a_group_selects_a_backend_with_its_own_settings(group):
+    for name in CHOICES[group]:
+        settings = getattr(load_config(["+scene=gothic", f"{group}={name}"]), group)
+        assert type(settings) is backend_module(settings.backend).Settings
 
 
 @pytest.mark.parametrize("profile", ["like_closed", "like_distilled"])
@@ -89,7 +100,9 @@ def test_scenes_have_the_rooms_they_should(scene):
 
 def test_the_standard_preset_is_the_schema():
     config = load_config(["+scene=gothic"])
-    assert leaves(config) == leaves(RunConfig()) | {
+    backends = {group: dataclasses.replace(getattr(config, group)) for group in GROUPS}
+    assert all(settings == type(settings)() for settings in backends.values())
+    assert leaves(config) == leaves(RunConfig(**backends)) | {
         "scene.name": "gothic",
         "scene.theme": config.scene.theme,
         "scene.rooms": config.scene.rooms,
@@ -110,10 +123,14 @@ def test_a_scene_of_ones_own():
         (["preset=fast"], "preset=fast: no such preset; choose one of draft, paper, standard"),
         (["variant=none"], "variant=none: no such variant; choose one of depth_objects, .*no_pcd_init"),
         (["image=gan"], "image=gan: no such image; choose one of like_closed, like_distilled, procedural"),
-        (["image.name=gan"], "image.name='gan': choose one of procedural"),
-        (["language.name=gpt"], "language.name='gpt': choose one of grammar"),
-        (["objects.segmentation=sam"], "objects.segmentation='sam': choose one of drawn"),
-        (["objects.reconstruction=nerf"], "objects.reconstruction='nerf': choose one of templates"),
+        (["image.backend=gan"], "image: backend 'gan' cannot be imported: ModuleNotFoundError"),
+        (["depth.backend=wm.types"], "depth: module 'wm.types' is no backend: it has no make, Settings, VERSION"),
+        (["language.backend=wm.offline.image.painter"], "language: settings of wm.offline.language.grammar do not suit"),
+        (["segmentation=sam"], "segmentation=sam: no such segmentation; choose one of drawn"),
+        (["objects.segmentation=drawn"], "objects.segmentation: no such key; objects has backend"),
+        (["image.drifft=1"], "image.drifft: no such key; did you mean image.drift. image has backend, drift"),
+        (["+image.drifft=1"], "image.drifft: no such key; did you mean image.drift"),
+        (["image.drift=2"], "image.drift=2.0: must be a number from 0 to 1"),
         (["fit.stepz=3"], "fit.stepz: no such key; did you mean fit.steps. fit has init, .*steps"),
         (["+fit.stepz=3"], "fit.stepz: no such key"),
         (["++colour.depth=3"], "colour: no such key; .*the configuration has scene, plan"),
@@ -146,20 +163,16 @@ def test_what_is_wrong_is_named_in_one_line_with_what_would_be_right(arguments, 
 def test_offline_models_that_go_by_what_was_drawn_are_refused_beside_an_image_model_that_tells_nothing(monkeypatch):
     recorded(monkeypatch, "image", "depth", draws=False)
 
-    def faults(*arguments):
-        try:
-            load_config(["+scene=gothic", "image.name=recording", *arguments])
-        except ConfigError as error:
-            return str(error)
-        return ""
+    def faults(*arguments, groups=("image",)):
+        return "; ".join(mismatches(with_recording(load_config(["+scene=gothic", *arguments]), *groups)))
 
-    assert "depth.name='procedural'" in faults() and "image.name='recording'" in faults()
-    assert faults("verify.enabled=false") == faults("depth.name=recording") == ""
+    assert "depth backend 'wm.offline.depth.estimator' needs what image backend 'recording_image' does not tell" in faults()
+    assert faults("verify.enabled=false") == faults(groups=("image", "depth")) == ""
     both = faults("objects=lifted", "verify.enabled=false")
-    assert "depth.name='procedural'" in both and "objects.segmentation='drawn'" in both
-    one = faults("objects=lifted", "depth.name=recording")
-    assert "depth.name" not in one and "choose another objects.segmentation, or image.name from procedural" in one
-    assert faults("objects=lifted", "depth.name=recording", "furnish.enabled=false") == ""
+    assert "depth backend" in both and "segmentation backend 'wm.offline.segmentation.drawn'" in both
+    one = faults("objects=lifted", groups=("image", "depth"))
+    assert "depth backend" not in one and "choose another segmentation=NAME, or an image=NAME that tells it" in one
+    assert faults("objects=lifted", "furnish.enabled=false", groups=("image", "depth")) == ""
 
 
 def test_all_faults_are_named_at_once():
@@ -167,4 +180,4 @@ def test_all_faults_are_named_at_once():
     config.seed = -1
     config.fit.init = "cubes"
     with pytest.raises(ConfigError, match=r"fit\.init='cubes'.*seed=-1"):
-        validate_config(config, backends=CHOICES)
+        validate_config(config)

@@ -5,7 +5,7 @@ import pathlib
 
 import pytest
 
-from tests.synth.recording import recorded
+from tests.synth.recording import recorded, with_recording
 from wm import pipeline
 from wm.artifacts import ArtifactError, RunFolder, open_run_folder
 from wm.geometry import PlanError
@@ -149,11 +149,8 @@ def test_a_plan_that_cannot_be_used_leaves_no_folder_behind(tmp_path):
     assert not (tmp_path / "never").exists()
 
 
-RECORDED = (*SMALL, "image.name=recording", "depth.name=recording")
-
-
-def painted(folder, overrides):
-    config = load_config(overrides)
+def painted(folder):
+    config = with_recording(load_config(SMALL), "image", "depth")
     with open_run_folder(folder, {"seed": config.seed}) as store:
         job = Job(config=config, folder=store, meter=StageMeter({}))
         return pipeline._painted(job, build_scene(job))
@@ -161,7 +158,7 @@ def painted(folder, overrides):
 
 def test_the_models_that_paint_are_closed_when_all_is_painted(monkeypatch, tmp_path):
     log = recorded(monkeypatch, "image", "depth")
-    result, heldout = painted(tmp_path, RECORDED)
+    result, heldout = painted(tmp_path)
     assert result.yield_share == 1.0 and not heldout.known  # a model that knows no world has no truth of held-out views
     assert log[:2] == ["image made", "depth made"] and log[-2:] == ["depth closed", "image closed"]
     assert {"image asked", "depth asked"} == set(log[2:-2])
@@ -173,5 +170,5 @@ def test_the_models_that_paint_are_closed_when_all_is_painted(monkeypatch, tmp_p
 def test_the_models_that_paint_are_closed_when_one_of_them_fails(monkeypatch, tmp_path, group):
     log = recorded(monkeypatch, "image", "depth", fails={group: 2})
     with pytest.raises(MemoryError, match=group):
-        painted(tmp_path, RECORDED)
+        painted(tmp_path)
     assert log[-2:] == ["depth closed", "image closed"]

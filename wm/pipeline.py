@@ -25,7 +25,7 @@ from wm.stages.reconstruction import HISTORY, reconstruct
 from wm.stages.rehearsal import rehearsed
 from wm.stages.reporting import REPORT, report
 from wm.stages.scene import LAYOUT, Scene, build_scene
-from wm.synth.backends import close_backend, make_backend
+from wm.synth.registry import close_backend, make_backend
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
 """Files that a stage leaves and that depend on the clock."""

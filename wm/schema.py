@@ -201,76 +201,21 @@ class ReportConfig:
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
-class LanguageConfig:
-    name: str = setting("grammar", "The language backend.")
+class BackendSettings:
+    """What selects a backend. The `Settings` of a backend's module extends it with the knobs of that backend alone.
 
+    A plain one, with nothing but the path, selects that backend with the defaults of its settings.
+    """
 
-@dataclass(kw_only=True, unsafe_hash=True)
-class ImageConfig:
-    name: str = setting("procedural", "The image backend.")
-    drift: float = number(
-        0.02, 0, 1, "Standard deviation of the tone a view invents where its condition shows only depth."
-    )
-    imaginations: int = number(
-        3, 0, 100, "Worlds that a view's seed picks from for what its condition leaves open; 0: always the scene's own."
-    )
-    exposure: float = number(0.0, 0, 1, "Standard deviation of a view's brightness, also where its condition shows the tone.")
-    phase: float = number(0.0, 0, 1000, "Pixels at 1376 wide by which fine detail strays.", unit="px")
-    softness: float = number(0.0, 0, 1000, "Pixels at 1376 wide by which the image is blurred.", unit="px")
-    closed: float = number(0.0, 0, 1, "Share of the images in which a doorway is shut.")
-    missing: float = number(0.0, 0, 1, "Share of the images in which a thing is not drawn.")
-    added: float = number(0.0, 0, 1, "Share of the images in which a thing is drawn twice.")
-    moved: float = number(0.0, 0, 1, "Share of the images in which a thing stands elsewhere.")
-    supersampling: int = number(2, 1, 16, "Geometry samples per pixel side.")
-    texel_size: float = number(
-        0.01,
-        0.001,
-        1,
-        "Distance between texels of the offline world's surfaces; its light is as much coarser or finer.",
-        unit="m",
-    )
-    worker: bool = setting(True, "Shade in a process of its own, where there is a core for it.", **BESIDE)
-
-
-@dataclass(kw_only=True, unsafe_hash=True)
-class ObjectsConfig:
-    name: str = setting(
-        "procedural", "The objects backend; procedural: straight from the generator, lifted: from images of the room."
-    )
-    segmentation: str = setting(
-        "drawn", "What finds things in those images; drawn: offline, by what the offline image model drew."
-    )
-    reconstruction: str = setting("templates", "What makes a mesh of each thing found.")
-    image_width: int = number(640, 16, 16384, "Width of the images that rooms are lifted from.", unit="px")
-    image_height: int = number(480, 16, 16384, "Height of the images that rooms are lifted from.", unit="px")
-    fov: float = number(90.0, 5, 150, "Vertical field of view of the images that rooms are lifted from.", unit="degrees")
-    min_area: float = number(2e-4, 0, 1, "Share of the image below which a segment is discarded.")
-    ragged: float = number(1.0, 0, 100, "Distance by which the offline segmentation's borders stray.", unit="px")
-    merged: float = number(0.1, 0, 1, "Share of touching neighbours of one kind that it takes for one thing.")
-    missed: float = number(0.25, 0, 1, "Share of small things that it misses.")
-
-
-@dataclass(kw_only=True, unsafe_hash=True)
-class DepthConfig:
-    name: str = setting("procedural", "The depth backend.")
-    noise: float = number(0.01, 0, 10, "Relative noise of the offline depth model.")
-    softness: float = number(0.35, 0, 100, "Distance by which it blurs edges.", unit="px")
-
-
-BACKEND_KEYS = {
-    "language": "language.name",
-    "image": "image.name",
-    "objects": "objects.name",
-    "depth": "depth.name",
-    "segmentation": "objects.segmentation",
-    "reconstruction": "objects.reconstruction",
-}
-"""The key that selects the backend of each group."""
+    backend: str = setting("", "Dotted path of the module that has `make` and `Settings` (wm.synth.registry).")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class RunConfig:
-    """The whole of a run; conf/config.yaml and what the command line says."""
+    """The whole of a run; conf/config.yaml and what the command line says.
+
+    The groups of backends (wm.synth.registry) hold the Settings of the module that is selected; none is by default here.
+    """
 
     scene: SceneConfig = field(default_factory=SceneConfig)
     plan: PlanConfig = field(default_factory=PlanConfig)
@@ -284,10 +229,12 @@ class RunConfig:
     navigation: NavigationSettings = field(default_factory=NavigationSettings)
     evaluate: EvaluateConfig = field(default_factory=EvaluateConfig)
     report: ReportConfig = field(default_factory=ReportConfig, metadata=BESIDE)
-    language: LanguageConfig = field(default_factory=LanguageConfig)
-    image: ImageConfig = field(default_factory=ImageConfig)
-    objects: ObjectsConfig = field(default_factory=ObjectsConfig)
-    depth: DepthConfig = field(default_factory=DepthConfig)
+    language: BackendSettings = field(default_factory=BackendSettings)
+    image: BackendSettings = field(default_factory=BackendSettings)
+    objects: BackendSettings = field(default_factory=BackendSettings)
+    depth: BackendSettings = field(default_factory=BackendSettings)
+    segmentation: BackendSettings = field(default_factory=BackendSettings)
+    reconstruction: BackendSettings = field(default_factory=BackendSettings)
     variant: str = setting("full", "Name of the ablation, and of its part of the run folder: conf/variant/*.yaml.")
     preset: str = setting("standard", "Name of the size of the run: conf/preset/*.yaml.")
     seed: int = number(0, 0, 2**63 - 1, "Seed of everything random.")

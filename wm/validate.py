@@ -5,33 +5,24 @@ are declared (`wm.bounds`). Imports nothing heavy.
 """
 
 import re
-from collections.abc import Iterator, Mapping
-from operator import attrgetter
+from collections.abc import Iterator
 
 from wm.bounds import outside
 from wm.errors import InputError
-from wm.schema import BACKEND_KEYS, RunConfig
+from wm.schema import RunConfig
 
 
 class ConfigError(InputError):
     """A configuration that cannot be run; the message names key, value and what would be right."""
 
 
-def validate_config(config: RunConfig, *, backends: Mapping[str, tuple[str, ...]]) -> None:
-    """Checks every value.
-
-    Args:
-      config: the composed run.
-      backends: group -> names that can be selected (wm.synth.backends.CHOICES).
+def validate_config(config: RunConfig) -> None:
+    """Checks every value, those of the backends' settings too. Whether there are such backends says wm.synth.registry.
 
     Raises:
       ConfigError: naming every key that is wrong, its value, and the choices or the range.
     """
     problems = list(_values_not_allowed(config))
-    for group, names in backends.items():
-        key = BACKEND_KEYS[group]
-        if (name := attrgetter(key)(config)) not in names:
-            problems.append(f"{key}={name!r}: choose one of {', '.join(names)}")
     if config.raster.compositor in ("kernels", "interpreted") and config.raster.tile.bit_count() != 1:
         problems.append(f"raster.tile={config.raster.tile!r}: kernels want a power of two")
     problems += _scene_problems(config)

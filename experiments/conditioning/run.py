@@ -15,13 +15,15 @@ from PIL import Image, ImageDraw, ImageFont
 
 from wm.geometry import assemble_scene, build_ray_scene, cast, object_boxes, place_cameras
 from wm.offline.image.painter import ProceduralImages
+from wm.offline.image.painter import Settings as ImageSettings
 from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
-from wm.schema import ConditionConfig, ImageConfig, RunConfig
+from wm.schema import ConditionConfig, RunConfig
 from wm.synth.attempt import PaintedView
-from wm.synth.backends import Condition, ImageRequest, SceneContext, make_backend
+from wm.synth.backends import Condition, ImageRequest, SceneContext
 from wm.synth.furnished import furnished_context
 from wm.synth.painting import PaintSettings, Scaffold, paint_scene
+from wm.synth.registry import make_backend
 from wm.types import OUTSIDE, View
 
 HERE = pathlib.Path(__file__).parent
@@ -78,7 +80,7 @@ def flaws_sheet(context: SceneContext, view: View, config: RunConfig, image: Pro
     things = gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE)
     condition = Condition(truth, np.ones_like(gbuffer.depth), gbuffer.depth, object=things)
 
-    def by(flaws: ImageConfig, seed: int) -> np.ndarray:
+    def by(flaws: ImageSettings, seed: int) -> np.ndarray:
         model = dataclasses.replace(image, config=flaws)
         result = model.generate(ImageRequest(condition, None, "", view, seed))
         return np.round(result.rgb * 255).astype(np.uint8)

@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 import shapely
 
+from wm.offline.language.grammar import Settings as LanguageSettings
 from wm.offline.language.programme import kind_of
 from wm.run import load_config, options
-from wm.schema import LanguageConfig
-from wm.synth.backends import make_backend
 from wm.synth.proposing import ProposalError, propose_plan
+from wm.synth.registry import make_backend
 
 HERE = Path(__file__).parent
 KINDS = ("living room", "kitchen", "bathroom", "bedroom", "dining room", "study", "library", "bedroom", "pantry", "music room")
@@ -33,7 +33,7 @@ def programmes() -> dict[str, tuple[str, list[str]]]:
 
 def measure(theme: str, rooms: list[str], seeds: int) -> dict[str, float]:
     """One row of the table; processor time, which a busy machine does not inflate as it does the clock."""
-    backend = make_backend("language", LanguageConfig())
+    backend = make_backend("language", LanguageSettings())
     iterations, seconds, areas, fits, failed, shapes = [], [], [], [], 0, set()
     for seed in range(seeds):
         start = time.process_time()

@@ -22,10 +22,11 @@ from wm.geometry.plan.site import room_site
 from wm.offline.arrangement.furnishing import furnish_scene
 from wm.offline.objects.generator import ProceduralObjects
 from wm.run import load_config, options
-from wm.schema import ObjectsConfig
-from wm.synth.backends import SceneContext, make_backend
+from wm.synth.backends import SceneContext
 from wm.synth.lifting.lifted import LiftedObjects, LiftedRoom, lift_room, room_cameras
+from wm.synth.lifting.lifted import Settings as LiftingSettings
 from wm.synth.proposing import propose_plan
+from wm.synth.registry import make_backend, model_settings
 from wm.types import SceneObject
 
 HERE = Path(__file__).parent
@@ -90,12 +91,13 @@ def lifted(backend: LiftedObjects, context: SceneContext, every: int) -> Iterato
         yield room, lift_room(context, room, cameras, models, backend.config)
 
 
-def lifted_rooms(scenes: list[str], count: int, every: int, seed: int, config: ObjectsConfig) -> tuple[list[Match], Tally]:
+def lifted_rooms(scenes: list[str], count: int, every: int, seed: int, config: LiftingSettings) -> tuple[list[Match], Tally]:
     """(every true thing, the tally) of seeded rooms that went through the whole chain: every nth of each scene."""
     rows: list[Match] = []
     tally = Tally("lifted")
     for scene, context in contexts(scenes, count, seed):
-        backend, truth, everything = LiftedObjects(config), furnish_scene(context), []
+        models = model_settings(load_config([f"+scene={scene}"]))
+        backend, truth, everything = LiftedObjects(config, models), furnish_scene(context), []
         for room, result in lifted(backend, context, every):
             found = matches(scene, context, room, truth, result)
             rows += found
@@ -110,7 +112,7 @@ def lifted_rooms(scenes: list[str], count: int, every: int, seed: int, config: O
     return rows, tally
 
 
-def shaken_rooms(scenes: list[str], count: int, seed: int, config: ObjectsConfig) -> Tally:
+def shaken_rooms(scenes: list[str], count: int, seed: int, config: LiftingSettings) -> Tally:
     """Seeded rooms whose furniture was shaken and placed."""
     tally, generator = Tally("shaken"), ProceduralObjects(config)
     for _, context in contexts(scenes, count, seed):
@@ -133,12 +135,12 @@ def main() -> None:
     parser.add_argument("--every", type=int, default=1, help="lift only every nth room of a scene")
     parser.add_argument("--rooms", type=int, default=200, help="rooms whose furniture is shaken and placed, at least")
     parser.add_argument("--seed", type=int, default=0, help="the first")
-    parser.add_argument("--width", type=int, default=ObjectsConfig().image_width, help="of the images that rooms are lifted from")
+    parser.add_argument("--width", type=int, default=LiftingSettings().image_width, help="of the images to lift from")
     parser.add_argument("--scenes", nargs="*", default=options("scene"))
     parser.add_argument("--out", type=Path, default=HERE)
     arguments = parser.parse_args()
     scenes, width = list(arguments.scenes), arguments.width
-    config = ObjectsConfig(name="lifted", image_width=width, image_height=width * 3 // 4)
+    config = LiftingSettings(image_width=width, image_height=width * 3 // 4)
     laws = []
     if arguments.lifted:
         rows, tally = lifted_rooms(scenes, arguments.lifted, arguments.every, arguments.seed, config)

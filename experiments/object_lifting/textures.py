@@ -26,10 +26,12 @@ from wm.geometry.rays.raycast import build_ray_scene, cast
 from wm.offline.arrangement.furnishing import furnish_scene
 from wm.offline.style.theme import style_of
 from wm.offline.world.pieces import build_pieces, look
-from wm.run import options
-from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
+from wm.run import load_config, options
+from wm.schema import CameraSettings
 from wm.synth.backends import SceneContext
 from wm.synth.lifting.lifted import LiftedObjects, LiftedRoom
+from wm.synth.lifting.lifted import Settings as LiftingSettings
+from wm.synth.registry import model_settings
 from wm.types import Camera, GBuffer, SceneObject
 
 HERE = Path(__file__).parent
@@ -133,12 +135,12 @@ def main() -> None:
     parser.add_argument("--scenes", nargs="*", default=options("scene"))
     parser.add_argument("--out", type=Path, default=HERE)
     arguments = parser.parse_args()
-    config = ObjectsConfig(name="lifted", image_width=arguments.width, image_height=arguments.width * 3 // 4)
+    config = LiftingSettings(image_width=arguments.width, image_height=arguments.width * 3 // 4)
     rows = []
     for number in range(arguments.rooms):
         scene, room = arguments.scenes[number % len(arguments.scenes)], number // len(arguments.scenes)
         context = context_of(scene, 0)
-        backend = LiftedObjects(config, image=ImageConfig(texel_size=0.04), depth=DepthConfig())
+        backend = LiftedObjects(config, model_settings(load_config([f"+scene={scene}", "image.texel_size=0.04"])))
         start = time.process_time()
         lifted = backend.lift(context, room)
         seconds = time.process_time() - start

@@ -23,9 +23,10 @@ from wm.offline.world.edit import edited_mesh
 from wm.run import load_config, options
 from wm.schema import RunConfig
 from wm.synth.attempt import attempt_seed
-from wm.synth.backends import ImageResult, SceneContext, make_backend
+from wm.synth.backends import ImageResult, SceneContext
 from wm.synth.canny import depth_edges
 from wm.synth.furnished import furnished_context
+from wm.synth.registry import make_backend
 from wm.synth.verify import verify
 from wm.types import OUTSIDE, GBuffer, Mesh, View
 

@@ -65,7 +65,7 @@ def furnished_room(folder: pathlib.Path, *, tiny: bool) -> Room:
     from wm.stages.painting import paint
     from wm.stages.reconstruction import training_view
     from wm.stages.scene import build_scene
-    from wm.synth.backends import make_backend
+    from wm.synth.registry import make_backend
 
     size = ["preset=draft", "cameras.width=96", "cameras.height=64", "cameras.heldout_per_room=2"] if tiny else []
     config = load_config(["+scene=gothic", "scene.rooms=[dining room]", "image.drift=0", *size])

@@ -1,15 +1,23 @@
-"""The choice `recording` of a group of backends: the offline one, with a log of what becomes of it.
+"""A backend `recording` for each group: the offline one, with a log of what becomes of it.
 
 It stands in for a model of the user's own, so it can do what the protocols ask of one and nothing that they do not: an image
 model that knows no world, begins on nothing early, and may fail.
 """
 
+import dataclasses
 import importlib
 import sys
 import types
 
-from wm.synth import backends
-from wm.synth.backends import CHOICES, ImageResult, close_backend
+from wm.synth.backends import ImageResult
+from wm.synth.registry import DRAWN, close_backend
+
+OFFLINE = {
+    "image": "wm.offline.image.painter",
+    "depth": "wm.offline.depth.estimator",
+    "segmentation": "wm.offline.segmentation.drawn",
+    "reconstruction": "wm.offline.reconstruction.templates",
+}
 
 
 class Log(list):
@@ -65,23 +73,40 @@ class RecordingImages(Recording):
 
 
 def recorded(monkeypatch, *groups, fails=None, draws=True):
-    """Registers `recording` in these groups and returns its log.
+    """Makes the backend `recording` of these groups available, and returns its log.
 
     `fails` says by group at which question it fails; `draws`, whether the image model tells what it drew: a real one does not.
     """
-    if draws:
-        monkeypatch.setattr(backends, "DRAWING", (*backends.DRAWING, "recording"))
     log = Log()
     for group in groups:
         _register(monkeypatch, group, log, (fails or {}).get(group), draws)
     return log
 
 
+def recording(group, **settings):
+    """The settings that select it."""
+    return sys.modules[f"recording_{group}"].Settings(**settings)
+
+
+def with_recording(config, *groups):
+    """A configuration whose models of these groups are recording ones, with the settings that it has for the offline ones."""
+    for group in groups:
+        own = dataclasses.asdict(getattr(config, group)) | {"backend": f"recording_{group}"}
+        config = dataclasses.replace(config, **{group: recording(group, **own)})
+    return config
+
+
 def _register(monkeypatch, group, log, fails_at, draws):
-    offline = importlib.import_module(backends._MODULES[group, CHOICES[group][0]])
+    offline = importlib.import_module(OFFLINE[group])
     wrapper = RecordingImages if group == "image" and draws else Recording
-    module = types.ModuleType(f"tests.recording_{group}")
-    vars(module)["make"] = lambda config, context: wrapper(group, offline.make(config, context), log, fails_at, draws)
+    module = types.ModuleType(f"recording_{group}")
+    settings = dataclasses.make_dataclass(
+        "Settings", [("backend", str, module.__name__)], bases=(offline.Settings,), kw_only=True, unsafe_hash=True
+    )
+    vars(module).update(
+        make=lambda settings, context: wrapper(group, offline.make(settings, context), log, fails_at, draws),
+        Settings=settings,
+        VERSION="1",
+        PROVIDES=(DRAWN,) if draws else (),
+    )
     monkeypatch.setitem(sys.modules, module.__name__, module)
-    monkeypatch.setitem(CHOICES, group, (*CHOICES[group], "recording"))
-    monkeypatch.setitem(backends._MODULES, (group, "recording"), module.__name__)

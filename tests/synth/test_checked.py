@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wm.geometry.rays.pinhole import make_camera
-from wm.schema import DepthConfig
-from wm.synth.backends import make_backend
+from wm.offline.depth.estimator import Settings as DepthSettings
 from wm.synth.checked import SLACK, checked_estimate, checked_image
+from wm.synth.registry import make_backend
 from wm.types import View
 
 CAMERA = make_camera(np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 1.0]), width=6, height=4, fov_deg=60.0)
@@ -75,4 +75,4 @@ def test_an_estimate_keeps_its_values_and_has_one_word_for_none():
 
 def test_a_group_that_does_not_exist_is_named_with_those_that_do():
     with pytest.raises(ValueError, match=r"'imgae'.*language, image"):
-        make_backend("imgae", DepthConfig())
+        make_backend("imgae", DepthSettings())

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.synth.recording import recorded
+from tests.synth.recording import recorded, with_recording
 from wm.artifacts import open_run_folder
 from wm.codecs import encode_objects
 from wm.geometry import plan_to_json
@@ -48,7 +48,7 @@ def test_a_plan_of_the_user_s_own_is_the_plan(tmp_path):
 @pytest.mark.parametrize("fails", [{}, {"depth": 1}], ids=["done", "failed"])
 def test_the_models_that_furnished_are_closed(monkeypatch, fails):
     log = recorded(monkeypatch, "image", "depth", fails=fails)
-    config = load_config([*CELL, *LIFTED, "image.name=recording", "depth.name=recording"])
+    config = with_recording(load_config([*CELL, *LIFTED]), "image", "depth")
     if fails:
         with pytest.raises(MemoryError, match="depth"):
             furnished_context(config)

@@ -10,6 +10,7 @@ from wm.stages.ordered import in_order
 from wm.stages.scene import Scene
 from wm.synth.backends import ImageBackend, WorldBackend
 from wm.synth.checked import checked_image
+from wm.synth.registry import backend_key
 from wm.types import View
 
 
@@ -29,7 +30,7 @@ class HeldOut:
 def render_heldout(job: Job, scene: Scene, image: ImageBackend) -> HeldOut:
     """The truths of all held-out views, stored; a real image model has none."""
     config = job.config
-    key = job.key("heldout", scene.key, config.scene.theme, config.cameras, config.image)
+    key = job.key("heldout", scene.key, config.scene.theme, config.cameras, *backend_key(config.image))
     if not isinstance(image, WorldBackend):
         return HeldOut(known=False, key=key, job=job)
     with job.stage("heldout"):

@@ -18,6 +18,7 @@ from wm.stages.scene import Scene
 from wm.synth.backends import DepthBackend, ImageBackend
 from wm.synth.painting import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
 from wm.synth.prompts import image_prompt
+from wm.synth.registry import backend_key
 from wm.synth.sights import sights
 from wm.types import SceneObject, View
 
@@ -58,8 +59,8 @@ def is_painted(job: Job, scene: Scene) -> bool:
 def paint_key(job: Job, scene: Scene) -> str:
     """The key of all that painting leaves."""
     config = job.config
-    shown = (config.cameras, config.texture, config.condition, config.verify, config.image, config.depth)
-    return job.key("paint", scene.key, config.scene.theme, *shown)
+    shown = (config.cameras, config.texture, config.condition, config.verify)
+    return job.key("paint", scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
 
 
 def _entry(view: View) -> str:

@@ -18,9 +18,10 @@ from wm.geometry import (
     plan_to_json,
 )
 from wm.stages.job import Job
-from wm.synth.backends import SceneContext, make_backend
+from wm.synth.backends import SceneContext
 from wm.synth.furnished import bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
+from wm.synth.registry import backend_key, make_backend
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
@@ -66,8 +67,8 @@ def build_scene(job: Job) -> Scene:
 def _plan(job: Job) -> tuple[FloorPlan, str]:
     config = job.config
     file = config.plan.file
-    source = file_digest(_user_file(file)) if file else [config.scene.theme, config.scene.rooms, config.language.name]
-    key = job.key("plan", source, config.plan.max_iterations)
+    source = [file_digest(_user_file(file))] if file else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
+    key = job.key("plan", *source, config.plan.max_iterations)
     if not job.folder.has("plan", key):
         if file:
             plan = load_plan(pathlib.Path(file))
@@ -78,7 +79,7 @@ def _plan(job: Job) -> tuple[FloorPlan, str]:
                 backend, config.scene.theme, list(config.scene.rooms), seed=config.seed, max_iterations=config.plan.max_iterations
             )
             plan = proposal.plan
-            layout = {"source": config.language.name, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}
+            layout = {"source": config.language.backend, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}
         # How long the layout took is not part of the plan's entry: equal runs have equal manifests.
         job.folder.write(LAYOUT, json_text(layout))
         job.folder.save("plan", key, {PLAN: plan_to_json(plan)})
@@ -95,7 +96,7 @@ def _user_file(file: str) -> pathlib.Path:
 def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
     config = job.config
     furnisher = make_furnisher(config, context)
-    key = job.key("furnish", plan_key, config.furnish, config.objects, config.scene.theme, *furnisher.models)
+    key = job.key("furnish", plan_key, config.furnish, config.scene.theme, *furnisher.keys)
     if not config.furnish.enabled:
         return (), key
     if not job.folder.has("furnish", key):

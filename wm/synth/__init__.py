@@ -10,6 +10,7 @@
     paint        the loop: condition, generate, verify, project back
 """
 
-from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext, make_backend
+from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
+from wm.synth.registry import make_backend
 
 __all__ = ["Condition", "ImageRequest", "ImageResult", "SceneContext", "make_backend"]

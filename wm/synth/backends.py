@@ -1,22 +1,18 @@
-"""What a backend must offer, and the registry that imports the one that was selected.
+"""What a backend must offer: one protocol a group, and the records that go in and come out.
 
-A backend is a small class behind one of the protocols below. Selecting `image=procedural` imports `wm.offline.image.painter` and
-calls its `make(config, context)`; nothing of the others is imported. Real models see only what the paper's would (condition,
-reference, prompt, seed); the offline ones may also look at the scene they were made for.
-
-To plug a model in: a module in the folder of its group that has `make`, its name in CHOICES, for the groups of conf/ a YAML of
-that name, and its settings as fields of the group's dataclass in wm.schema. What it returns is checked (wm.synth.checked).
+Real models see only what the paper's would (condition, reference, prompt, seed); the offline ones may also look at the scene they
+were made for. What a backend returns is checked where it comes in (wm.synth.checked); how one is selected, and how a model of
+one's own is plugged in, says wm.synth.registry.
 """
 
 import dataclasses
-import importlib
 from collections.abc import Sequence
 from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
 from wm.geometry.plan.site import Site
-from wm.schema import BACKEND_KEYS, DepthConfig, ImageConfig, RunConfig
+from wm.schema import BackendSettings
 from wm.types import Camera, Mesh, SceneObject, View
 
 
@@ -94,6 +90,16 @@ class Reconstruction:
     residual: float  # metres between the points seen and the mesh, median
 
 
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ModelSettings:
+    """The settings of the models that an image-driven objects backend asks."""
+
+    image: BackendSettings
+    depth: BackendSettings
+    segmentation: BackendSettings
+    reconstruction: BackendSettings
+
+
 @runtime_checkable
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:
@@ -146,8 +152,8 @@ class ObjectsBackend(Protocol):
 class ImageDrivenBackend(ObjectsBackend, Protocol):
     """An objects backend that furnishes rooms from images of them."""
 
-    def with_models(self, image: ImageConfig, depth: DepthConfig) -> ObjectsBackend:
-        """The same backend, its images drawn and their depth estimated by these."""
+    def with_models(self, models: "ModelSettings") -> ObjectsBackend:
+        """The same backend, its images drawn, segmented and turned into meshes by the backends that these select."""
         ...
 
 
@@ -187,74 +193,3 @@ class ClosableBackend(Protocol):
     def close(self) -> None:
         """Ends what it holds. Whoever made the backend closes it, also after an error; closing twice is closing once."""
         ...
-
-
-CHOICES: dict[str, tuple[str, ...]] = {
-    "language": ("grammar",),
-    "image": ("procedural",),
-    "objects": ("procedural", "lifted"),
-    "depth": ("procedural",),
-    "segmentation": ("drawn",),
-    "reconstruction": ("templates",),
-}
-_MODULES = {
-    ("language", "grammar"): "wm.offline.language.grammar",
-    ("image", "procedural"): "wm.offline.image.painter",
-    ("objects", "procedural"): "wm.offline.objects.generator",
-    ("objects", "lifted"): "wm.synth.lifting.lifted",
-    ("depth", "procedural"): "wm.offline.depth.estimator",
-    ("segmentation", "drawn"): "wm.offline.segmentation.drawn",
-    ("reconstruction", "templates"): "wm.offline.reconstruction.templates",
-}
-DRAWING = ("procedural",)
-"""Image backends whose results tell what they drew (`ImageResult.drawn_*`), as no real model's do."""
-READING = {"depth": ("procedural",), "segmentation": ("drawn",)}
-"""Backends that go by it, and so only with those."""
-
-
-def make_backend(group: str, config: Any, context: SceneContext | None = None) -> Any:
-    """The selected backend of a group, such as "image".
-
-    Args:
-      group: one of CHOICES.
-      config: the dataclass of wm.schema that selects it, by the field that BACKEND_KEYS tells: its `name`, or for what `objects`
-        is made with the field of the group.
-      context: the scene; None for the language backend, which comes before it.
-
-    Raises:
-      ValueError: there is no such group, or the name is not one of its choices.
-    """
-    if group not in CHOICES:
-        raise ValueError(f"no group of backends is called {group!r}; groups: {', '.join(CHOICES)}")
-    name = _selected(group, config)
-    if name not in CHOICES[group]:
-        raise ValueError(f"unknown {group} backend {name!r}; choices: {', '.join(CHOICES[group])}")
-    module = importlib.import_module(_MODULES[group, name])
-    return module.make(config, context)
-
-
-def mismatch(group: str, config: Any, image: ImageConfig) -> list[str]:
-    """What is wrong, if anything, with a backend of this group under an image backend."""
-    name = _selected(group, config)
-    if name not in READING.get(group, ()) or image.name in DRAWING:
-        return []
-    key = BACKEND_KEYS[group]
-    told = f"{key}={name!r} goes by what an offline image model tells that it drew, and image.name={image.name!r} tells nothing"
-    return [f"{told}: choose another {key}, or image.name from {', '.join(DRAWING)}"]
-
-
-def mismatched(config: RunConfig) -> list[str]:
-    """The backends of a run that do not go together, each with both of its keys, of those that the run will ask."""
-    lifted = config.furnish.enabled and config.objects.name == "lifted"
-    depth = mismatch("depth", config.depth, config.image) if lifted or config.verify.enabled else []
-    return depth + (mismatch("segmentation", config.objects, config.image) if lifted else [])
-
-
-def _selected(group: str, config: Any) -> str:
-    return getattr(config, BACKEND_KEYS[group].rpartition(".")[2])
-
-
-def close_backend(backend: Any) -> None:
-    """Ends what a backend holds, if it holds anything."""
-    if isinstance(backend, ClosableBackend):
-        backend.close()

@@ -4,11 +4,13 @@ import contextlib
 import dataclasses
 import pathlib
 from collections.abc import Callable
+from typing import Any
 
 from wm.geometry import FloorPlan, build_structure, load_plan
-from wm.schema import DepthConfig, ImageConfig, RunConfig
-from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext, close_backend, make_backend
+from wm.schema import RunConfig
+from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext
 from wm.synth.proposing import propose_plan
+from wm.synth.registry import backend_key, close_backend, make_backend, model_settings
 from wm.types import SceneObject
 
 
@@ -17,7 +19,7 @@ class Furnisher:
     """The objects backend of a configuration."""
 
     backend: ObjectsBackend
-    models: tuple[ImageConfig | DepthConfig, ...]  # settings of the image and depth models that it asks: they shape the furniture
+    keys: tuple[Any, ...]  # what a stage's key says of it and of the models that it asks, for these shape the furniture too
 
     def furnish(self, context: SceneContext, *, done: Callable[[], object] = lambda: None) -> list[SceneObject]:
         """The objects of all rooms; `done` is called after each room. The backend is closed at the end, also after an error."""
@@ -31,11 +33,14 @@ class Furnisher:
 
 
 def make_furnisher(config: RunConfig, context: SceneContext) -> Furnisher:
-    """The selected objects backend; one that is image-driven asks the selected image and depth models."""
+    """The selected objects backend; one that is image-driven asks the selected models."""
     backend: ObjectsBackend = make_backend("objects", config.objects, context)
-    if isinstance(backend, ImageDrivenBackend):
-        return Furnisher(backend.with_models(config.image, config.depth), (config.image, config.depth))
-    return Furnisher(backend, ())
+    own = backend_key(config.objects)
+    if not isinstance(backend, ImageDrivenBackend):
+        return Furnisher(backend, own)
+    models = model_settings(config)
+    asked = (models.image, models.depth, models.segmentation, models.reconstruction)
+    return Furnisher(backend.with_models(models), (*own, *(part for settings in asked for part in backend_key(settings))))
 
 
 def bare_context(config: RunConfig, plan: FloorPlan) -> SceneContext:

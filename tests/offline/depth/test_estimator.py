@@ -4,8 +4,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.schema import DepthConfig
-from wm.synth.backends import ImageResult, make_backend
+from wm.offline.depth.estimator import Settings as DepthSettings
+from wm.synth.backends import ImageResult
+from wm.synth.registry import make_backend
 
 
 def drawing(rng) -> ImageResult:
@@ -18,7 +19,7 @@ def drawing(rng) -> ImageResult:
 @given(st.integers(0, 1000))
 def test_without_noise_it_is_affine_in_the_drawn_depth(seed):
     result = drawing(np.random.default_rng(seed))
-    estimate = make_backend("depth", DepthConfig(noise=0.0, softness=0.0)).estimate(result, seed=seed)
+    estimate = make_backend("depth", DepthSettings(noise=0.0, softness=0.0)).estimate(result, seed=seed)
     drawn = result.drawn_depth > 0
     x, y = result.drawn_depth[drawn], estimate[drawn]
     slope, shift = np.polyfit(x, y, 1)
@@ -29,8 +30,8 @@ def test_without_noise_it_is_affine_in_the_drawn_depth(seed):
 
 def test_noise_is_relative_seeded_and_as_strong_as_configured():
     result = drawing(np.random.default_rng(0))
-    clean = make_backend("depth", DepthConfig(noise=0.0)).estimate(result, seed=4)
-    noisy = make_backend("depth", DepthConfig(noise=0.02))
+    clean = make_backend("depth", DepthSettings(noise=0.0)).estimate(result, seed=4)
+    noisy = make_backend("depth", DepthSettings(noise=0.02))
     a, again, b = (noisy.estimate(result, seed=s) for s in (4, 4, 5))
     np.testing.assert_array_equal(a, again)
     drawn = result.drawn_depth > 0
@@ -39,4 +40,4 @@ def test_noise_is_relative_seeded_and_as_strong_as_configured():
 
 
 def test_no_drawing_no_estimate():
-    assert make_backend("depth", DepthConfig()).estimate(ImageResult(rgb=np.zeros((4, 4, 3), np.float32)), seed=0) is None
+    assert make_backend("depth", DepthSettings()).estimate(ImageResult(rgb=np.zeros((4, 4, 3), np.float32)), seed=0) is None

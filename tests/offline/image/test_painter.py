@@ -11,12 +11,14 @@ from wm.geometry.rays.raycast import build_ray_scene, cast
 from wm.offline.image import painter
 from wm.offline.image.imagination import FURNISHED, SCENE, Imagination, imagined_scene, imagined_style
 from wm.offline.image.painter import ProceduralImages, Scenery, lowpass
+from wm.offline.image.painter import Settings as ImageSettings
 from wm.offline.style.theme import style_of
 from wm.offline.world.room import bake_settings
 from wm.offline.world.worker import Recipe, WorkerWorld
 from wm.offline.world.world import World
-from wm.schema import ImageConfig, ObjectsConfig
-from wm.synth.backends import Condition, ImageRequest, ImaginingBackend, close_backend, make_backend
+from wm.schema import BackendSettings
+from wm.synth.backends import Condition, ImageRequest, ImaginingBackend
+from wm.synth.registry import close_backend, make_backend
 from wm.types import OUTSIDE, View
 
 
@@ -58,7 +60,7 @@ def scene():
 
 
 def model(drift=0.0, make_world=make_world, **strengths):
-    return ProceduralImages(furnished(), make_world, ImageConfig(drift=drift, **strengths))
+    return ProceduralImages(furnished(), make_world, ImageSettings(drift=drift, **strengths))
 
 
 def test_closing_ends_the_processes_of_its_worlds():
@@ -124,14 +126,14 @@ def test_a_condition_of_another_size_is_refused(shot):
 
 
 def test_the_registry_finds_it():
-    backend = make_backend("image", ImageConfig(), furnished())
+    backend = make_backend("image", ImageSettings(), furnished())
     assert isinstance(backend, ProceduralImages)
 
 
 @pytest.mark.parametrize("size", [0.0, -0.01, float("nan")])
 def test_a_texel_size_that_is_no_length_is_named(size):
     with pytest.raises(ValueError, match=r"image\.texel_size"):
-        make_backend("image", ImageConfig(texel_size=size), furnished())
+        make_backend("image", ImageSettings(texel_size=size), furnished())
 
 
 def open_walls(shot, **more):
@@ -150,7 +152,7 @@ def test_walls_that_are_not_shown_are_finished_anew_from_view_to_view(shot):
     images = [exact.generate(open_walls(shot, seed=seed)).rgb for seed in range(8)]
     walls = shot.object == OUTSIDE
     looks = {image[walls].tobytes() for image in images}
-    assert 2 <= len(looks) <= ImageConfig().imaginations
+    assert 2 <= len(looks) <= ImageSettings().imaginations
     for image in images:
         assert np.abs(image - shot.rgb)[walls].mean() > 0.03
     np.testing.assert_array_equal(images[3], model().generate(open_walls(shot, seed=3)).rgb)  # whatever was asked before
@@ -238,7 +240,8 @@ def same(things, others):
 
 def test_what_it_imagines_in_empty_rooms_is_what_the_generator_furnishes_them_with():
     for scene in (bare(), bare(seed=5)):
-        generator, images = make_backend("objects", ObjectsConfig(), scene), make_backend("image", ImageConfig(), scene)
+        generator = make_backend("objects", BackendSettings(backend="wm.offline.objects.generator"), scene)
+        images = make_backend("image", ImageSettings(), scene)
         assert isinstance(images, ImaginingBackend)
         generated = [thing for room in range(len(scene.plan.rooms)) for thing in generator.furnish(scene, room)]
         assert generated and same(images.imagined(), generated)
@@ -251,7 +254,8 @@ def test_asked_to_furnish_it_draws_what_it_imagines():
     scene = imagined_scene(bare(), FURNISHED)
     world = World(scene, settings=COARSE)
     images, forgetful = (
-        ProceduralImages(bare(), lambda context, which: world, ImageConfig(drift=0.0, missing=missing)) for missing in (0.0, 1.0)
+        ProceduralImages(bare(), lambda context, which: world, ImageSettings(drift=0.0, missing=missing))
+        for missing in (0.0, 1.0)
     )
     shot, empty = world.shoot(VIEW.camera), cast(build_ray_scene(bare().structure), VIEW.camera)
     shown = {"depth": empty.depth, "objects": "none", "wall_texture": False}
@@ -269,7 +273,7 @@ def test_asked_to_furnish_it_draws_what_it_imagines():
 
 @pytest.mark.parametrize(("texel_size", "furnishing"), [(0.01, painter.COARSE), (0.08, 0.08)])
 def test_the_world_that_it_furnishes_rooms_in_is_coarser(texel_size, furnishing):
-    images = make_backend("image", ImageConfig(texel_size=texel_size, worker=False), bare())
+    images = make_backend("image", ImageSettings(texel_size=texel_size, worker=False), bare())
     with_furniture, without = images.scenery(FURNISHED).world, images.scenery(SCENE).world
     assert with_furniture.labels and not without.labels
     assert (with_furniture._supersampling, with_furniture._settings) == (1, bake_settings(furnishing))

@@ -9,11 +9,14 @@ import pytest
 from tests.offline.world.boxes import furnished
 from wm.geometry import assemble_scene, build_ray_scene, cast, place_cameras
 from wm.geometry.rays.pinhole import make_camera
+from wm.offline.depth.estimator import Settings as DepthSettings
+from wm.offline.image.painter import Settings as ImageSettings
 from wm.offline.image.violations import KINDS, PLAIN, draw_violation, violation
 from wm.offline.world.edit import Edit, edited_mesh
-from wm.schema import CameraSettings, DepthConfig, ImageConfig, VerifySettings
-from wm.synth.backends import ImageResult, make_backend
+from wm.schema import CameraSettings, VerifySettings
+from wm.synth.backends import ImageResult
 from wm.synth.canny import depth_edges
+from wm.synth.registry import make_backend
 from wm.synth.verify import verify
 from wm.types import OUTSIDE, View
 
@@ -83,7 +86,7 @@ def verdict(view, mesh, gbuffer, wrong, seed):
     depth = gbuffer.depth if wrong is None else cast(edited_mesh(mesh, furnished().plan, wrong.edit)[0], view.camera).depth
     changed = np.abs(depth - gbuffer.depth) > settings.tolerance * gbuffer.depth
     image = ImageResult(rgb=np.zeros((*depth.shape, 3), np.float32), drawn_depth=depth)
-    estimate = make_backend("depth", DepthConfig()).estimate(image, seed=seed)
+    estimate = make_backend("depth", DepthSettings()).estimate(image, seed=seed)
     edges = depth_edges(gbuffer.depth, gbuffer.hit, low=settings.low, high=settings.high)
     return changed.mean() >= PLAIN, verify(edges, estimate, settings, depth=gbuffer.depth).passed
 
@@ -108,7 +111,7 @@ def test_verification_catches_violations_and_accepts_good_images():
 
 def test_shares_are_shares():
     _, gbuffer, thing = seen()
-    config = ImageConfig(missing=0.3, moved=0.2)
+    config = ImageSettings(missing=0.3, moved=0.2)
 
     def drawn_kind(seed, settings, **options):
         found = draw_violation(settings, furnished(), VIEW, gbuffer, thing, np.random.default_rng(seed), **options)
@@ -118,7 +121,7 @@ def test_shares_are_shares():
     assert abs(kinds.count("missing") / 300 - 0.3) < 0.08  # three standard deviations
     assert abs(kinds.count("moved") / 300 - 0.2) < 0.07
     assert kinds.count("closed") == kinds.count("added") == 0
-    assert all(drawn_kind(seed, ImageConfig()) is None for seed in range(50))
+    assert all(drawn_kind(seed, ImageSettings()) is None for seed in range(50))
     assert all(drawn_kind(seed, config, objects=False) is None for seed in range(50))  # none are shown, none can be missing
 
 

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from wm.geometry import PlanError, parse_plan
 from wm.offline.language.building import building_of
+from wm.offline.language.grammar import Settings as LanguageSettings
 from wm.offline.language.grammar import make
 from wm.offline.language.programme import kind_of
-from wm.schema import LanguageConfig
-from wm.synth.backends import make_backend
 from wm.synth.proposing import propose_plan
+from wm.synth.registry import make_backend
 
 GRAMMAR = make(None, None)
 THEMES = ["gothic revival mansion", "a tiny cabin", "airy modern beach house", "roman estate", "a dream", "nordic flat"]
@@ -146,4 +146,4 @@ def test_overlapping_rooms_are_drafted_anew():
 
 
 def test_the_registry_makes_it():
-    assert make_backend("language", LanguageConfig()).propose("x", ["den"], seed=0, violations=[], previous=None)
+    assert make_backend("language", LanguageSettings()).propose("x", ["den"], seed=0, violations=[], previous=None)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from wm.geometry import build_structure, interior_polygon, parse_plan
-from wm.schema import ObjectsConfig
-from wm.synth.backends import SceneContext, make_backend
+from wm.offline.objects.generator import Settings
+from wm.synth.backends import SceneContext
+from wm.synth.registry import make_backend
 
 PLAN = {
     "metadata": {"units": "meters", "coordinate_system": "z_up", "wall_thickness": 0.15, "default_ceiling_height": 2.8},
@@ -33,7 +34,7 @@ def context(seed=0, theme="gothic mansion", density=1.0):
 
 
 def furnish(scene, room):
-    return make_backend("objects", ObjectsConfig(), scene).furnish(scene, room)
+    return make_backend("objects", Settings(), scene).furnish(scene, room)
 
 
 def test_objects_are_world_space_records_of_their_room():

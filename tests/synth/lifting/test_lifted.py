@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from tests.synth.lifting.scenes import STYLE, bare, piece
-from tests.synth.recording import Recording, recorded
-from wm.errors import InputError
+from tests.synth.recording import Recording, recorded, recording
 from wm.geometry.cameras.views import bootstrap_cameras
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.placement.laws import violations
@@ -20,8 +19,10 @@ from wm.geometry.plan.site import room_site
 from wm.geometry.rays.pinhole import camera_center
 from wm.geometry.rays.raycast import build_ray_scene, cast
 from wm.offline.arrangement.furnishing import furnish_scene
+from wm.offline.depth.estimator import Settings as DepthSettings
+from wm.offline.image.painter import Settings as ImageSettings
 from wm.offline.reconstruction.templates import TemplateReconstruction
-from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
+from wm.schema import BackendSettings, CameraSettings
 from wm.synth.backends import (
     DepthBackend,
     ImageBackend,
@@ -29,21 +30,35 @@ from wm.synth.backends import (
     ImageRequest,
     ImageResult,
     ImaginingBackend,
+    ModelSettings,
     Segment,
     SegmentationBackend,
-    make_backend,
 )  # fmt: skip
-from wm.synth.lifting.lifted import Models, lift_room, room_cameras
+from wm.synth.lifting.lifted import Models, Settings, lift_room, room_cameras
+from wm.synth.registry import BackendError, make_backend
 from wm.types import OUTSIDE, View
 
-CONFIG = ObjectsConfig(name="lifted", image_width=240, image_height=180)
-COARSE = ImageConfig(texel_size=0.08)
+CONFIG = Settings(image_width=240, image_height=180)
+COARSE = ImageSettings(texel_size=0.08)
+OFFLINE = ModelSettings(
+    image=COARSE,
+    depth=DepthSettings(),
+    segmentation=BackendSettings(backend="wm.offline.segmentation.drawn"),
+    reconstruction=BackendSettings(backend="wm.offline.reconstruction.templates"),
+)
 MODELS = ("image", "depth", "segmentation", "reconstruction")
+
+
+def recording_models(*groups):
+    """The offline models, those of these groups recorded."""
+    return dataclasses.replace(
+        OFFLINE, **{group: recording(group, **({"texel_size": 0.08} if group == "image" else {})) for group in groups}
+    )
 
 
 @functools.cache
 def lifted(room=1):
-    with contextlib.closing(make_backend("objects", CONFIG, bare()).with_models(COARSE, DepthConfig())) as backend:
+    with contextlib.closing(make_backend("objects", CONFIG, bare()).with_models(OFFLINE)) as backend:
         return backend.lift(bare(), room)
 
 
@@ -123,7 +138,7 @@ def test_nothing_is_copied_from_the_generator():
 
 def test_its_models_end_with_it_and_with_the_scene_they_are_of():
     small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
-    backend = make_backend("objects", small, bare()).with_models(COARSE, DepthConfig())
+    backend = make_backend("objects", small, bare()).with_models(OFFLINE)
     backend.lift(bare(), 1)
     first = backend._held[1]
     backend.lift(bare(), 0)
@@ -139,12 +154,10 @@ def test_its_models_end_with_it_and_with_the_scene_they_are_of():
 
 def test_all_of_its_models_are_the_selected_ones_and_closed(monkeypatch):
     small = dataclasses.replace(CONFIG, image_width=60, image_height=45)
-    with contextlib.closing(make_backend("objects", small, bare()).with_models(COARSE, DepthConfig())) as backend:
+    with contextlib.closing(make_backend("objects", small, bare()).with_models(OFFLINE)) as backend:
         offline = backend.lift(bare(), 1).objects
     log = recorded(monkeypatch, *MODELS)
-    image, depth = dataclasses.replace(COARSE, name="recording"), DepthConfig(name="recording")
-    small = dataclasses.replace(small, segmentation="recording", reconstruction="recording")
-    backend = make_backend("objects", small, bare()).with_models(image, depth)
+    backend = make_backend("objects", small, bare()).with_models(recording_models(*MODELS))
     own = backend.lift(bare(), 1).objects
     backend.close()
     backend.close()
@@ -153,12 +166,11 @@ def test_all_of_its_models_are_the_selected_ones_and_closed(monkeypatch):
     assert [thing.vertices.tobytes() for thing in own] == [thing.vertices.tobytes() for thing in offline] != []
 
 
-@pytest.mark.parametrize(("depth", "named"), [("procedural", r"depth\.name='procedural'.*"), ("recording", "")])
-def test_an_image_model_that_tells_nothing_is_refused_before_it_is_made(monkeypatch, depth, named):
+@pytest.mark.parametrize(("groups", "named"), [(["image"], "depth backend 'wm.*"), (["image", "depth"], "")])
+def test_an_image_model_that_tells_nothing_is_refused_before_it_is_made(monkeypatch, groups, named):
     log = recorded(monkeypatch, "image", "depth", draws=False)
-    image = dataclasses.replace(COARSE, name="recording")
-    backend = make_backend("objects", CONFIG, bare()).with_models(image, DepthConfig(name=depth))
-    with pytest.raises(InputError, match=rf"^{named}objects\.segmentation='drawn'.*image\.name='recording'"):
+    backend = make_backend("objects", CONFIG, bare()).with_models(recording_models(*groups))
+    with pytest.raises(BackendError, match=rf"^{named}segmentation backend 'wm\.offline.*image backend 'recording_image'"):
         backend.furnish(bare(), 1)
     assert log == []
 
@@ -166,7 +178,7 @@ def test_an_image_model_that_tells_nothing_is_refused_before_it_is_made(monkeypa
 @pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes():
     room = lifted()
-    again = make_backend("objects", CONFIG, bare()).with_models(COARSE, DepthConfig()).furnish(bare(), 1)
+    again = make_backend("objects", CONFIG, bare()).with_models(OFFLINE).furnish(bare(), 1)
     assert [thing.vertices.tobytes() for thing in again] == [thing.vertices.tobytes() for thing in room.objects]
     assert [thing.slot_colors.tobytes() for thing in again] == [thing.slot_colors.tobytes() for thing in room.objects]
 
@@ -207,9 +219,9 @@ def test_an_image_model_that_imagines_nothing_and_tells_nothing_is_shown_the_emp
     """Its requests show the bare structure, from the cameras of the empty room, and it is made for a scene without furniture."""
     log = recorded(monkeypatch, "image", "depth", "segmentation", draws=False)
     monkeypatch.setattr(Recording, "estimate", lambda self, result, *, seed: None)
-    image, depth = dataclasses.replace(COARSE, name="recording"), DepthConfig(name="recording")
-    small = dataclasses.replace(CONFIG, segmentation="recording", image_width=24, image_height=18)
-    with contextlib.closing(make_backend("objects", small, bare()).with_models(image, depth)) as backend:
+    models = recording_models("image", "depth", "segmentation")
+    small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
+    with contextlib.closing(make_backend("objects", small, bare()).with_models(models)) as backend:
         for room in (0, 1):
             assert backend.lift(bare(), room).objects == []
         assert not isinstance(backend._held[1].image, ImaginingBackend)
@@ -227,7 +239,7 @@ def test_what_a_model_is_asked_is_what_it_is_shown(monkeypatch):
     """An empty room, said to be empty and shown so; to the second camera also the room as the first shows it furnished."""
     log = recorded(monkeypatch, "image")
     small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
-    backend = make_backend("objects", small, bare()).with_models(dataclasses.replace(COARSE, name="recording"), DepthConfig())
+    backend = make_backend("objects", small, bare()).with_models(recording_models("image"))
     room = backend.lift(bare(), 1)
     backend.close()
     first, second = log.requests
@@ -246,5 +258,8 @@ def test_what_a_model_is_asked_is_what_it_is_shown(monkeypatch):
 def test_it_is_image_driven_and_refuses_a_density_that_is_no_share():
     backend = make_backend("objects", CONFIG, bare())
     assert isinstance(backend, ImageDrivenBackend)
+    with pytest.raises(BackendError, match="with_models"):
+        backend.furnish(bare(), 0)
+    backend = backend.with_models(OFFLINE)
     with contextlib.closing(backend), pytest.raises(ValueError, match=r"furnish\.density is 1\.5"):
         backend.furnish(dataclasses.replace(bare(), density=1.5), 0)

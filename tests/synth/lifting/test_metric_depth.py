@@ -9,7 +9,7 @@ from tests.synth.lifting.scenes import bare, cameras, piece
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.rays.raycast import cast
 from wm.offline.depth.estimator import ProceduralDepth
-from wm.schema import DepthConfig
+from wm.offline.depth.estimator import Settings as DepthSettings
 from wm.synth.backends import ImageResult
 from wm.synth.lifting.metric_depth import metric_depth
 
@@ -45,7 +45,7 @@ def test_an_estimate_that_is_the_nearer_the_larger_or_constant_tells_nothing():
 def test_the_offline_depth_model_is_within_a_percent():
     image = ImageResult(rgb=np.zeros((*DRAWN.shape, 3), np.float32), drawn_depth=DRAWN)
     for seed in range(3):
-        estimate = ProceduralDepth(DepthConfig()).estimate(image, seed=seed)
+        estimate = ProceduralDepth(DepthSettings()).estimate(image, seed=seed)
         found = metric_depth(estimate, EMPTY, seed=seed)
         assert np.median(np.abs(found - DRAWN) / DRAWN) < 0.01
 

@@ -6,8 +6,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy import ndimage
 
-from wm.offline.segmentation.drawn import DrawnSegmentation
-from wm.schema import ObjectsConfig
+from wm.offline.segmentation.drawn import DrawnSegmentation, Settings
 from wm.synth.backends import ImageResult, Segment
 from wm.synth.lifting.segments import tidy_segments
 
@@ -22,7 +21,7 @@ def drawn():
 
 def segments(seed=0, **strengths):
     exact = {"ragged": 0.0, "merged": 0.0, "missed": 0.0}
-    return DrawnSegmentation(ObjectsConfig(**(exact | strengths))).segment(drawn(), seed=seed)
+    return DrawnSegmentation(Settings(**(exact | strengths))).segment(drawn(), seed=seed)
 
 
 def test_at_strength_0_it_returns_what_was_drawn():
@@ -52,7 +51,7 @@ def test_the_seed_decides():
 
 def test_an_image_that_carries_nothing_is_refused():
     with pytest.raises(ValueError, match=r"objects\.segmentation=.drawn.*this image tells nothing"):
-        DrawnSegmentation(ObjectsConfig()).segment(ImageResult(rgb=np.zeros((4, 4, 3), np.float32)), seed=0)
+        DrawnSegmentation(Settings()).segment(ImageResult(rgb=np.zeros((4, 4, 3), np.float32)), seed=0)
 
 
 def rectangle(y0, y1, x0, x1):

@@ -10,17 +10,30 @@ import numpy as np
 from jaxtyping import Float
 from scipy.ndimage import gaussian_filter
 
-from wm.schema import DepthConfig
+from wm.bounds import number, setting
+from wm.schema import BackendSettings
 from wm.synth.backends import ImageResult, SceneContext
+from wm.synth.registry import DRAWN
 
+VERSION = "1"
+REQUIRES = (DRAWN,)
 _KNOT = 24.0  # pixels over which the error is correlated, at 688 wide
+
+
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
+class Settings(BackendSettings):
+    """How wrong the estimates are."""
+
+    backend: str = setting(__name__, "The offline depth model.")
+    noise: float = number(0.01, 0, 10, "Relative error of the depth.")
+    softness: float = number(0.35, 0, 100, "Distance over which edges are blurred.", unit="px")
 
 
 @dataclasses.dataclass(frozen=True)
 class ProceduralDepth:
     """The backend."""
 
-    config: DepthConfig
+    config: Settings
 
     def estimate(self, result: ImageResult, *, seed: int) -> Float[np.ndarray, "h w"] | None:
         """[h, w] float32 depth up to scale and shift, NaN where nothing was drawn; None for an image that carries no depth."""
@@ -37,7 +50,7 @@ class ProceduralDepth:
         return np.where(drawn, estimate, np.nan).astype(np.float32)
 
 
-def make(config: DepthConfig, context: SceneContext | None) -> ProceduralDepth:
+def make(config: Settings, context: SceneContext | None) -> ProceduralDepth:
     """The offline depth backend; it needs nothing of the scene."""
     return ProceduralDepth(config=config)
 

@@ -13,7 +13,7 @@ Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it 
 - Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
   while the world's fine detail is restored.
 Imperfections (wm.offline.image.imperfections) and violations of the structure (wm.offline.image.violations) come on top, at the
-strengths of ImageConfig; with all of them at 0 and nothing left open the image is the exact world, the truth of held-out views.
+strengths of its Settings; with all of them at 0 and nothing left open the image is the exact world, the truth of held-out views.
 """
 
 import dataclasses
@@ -26,18 +26,22 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.ndimage import gaussian_filter
 
+from wm.bounds import number, setting
 from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.host import cores
 from wm.offline.image.imagination import FURNISHED, SCENE, Imagination, imagined_scene, imagined_style
 from wm.offline.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
-from wm.offline.image.violations import Violation, draw_violation
+from wm.offline.image.violations import KINDS, Violation, draw_violation
 from wm.offline.world.room import bake_settings
 from wm.offline.world.worker import Recipe, WorkerWorld
 from wm.offline.world.world import Shot, World
-from wm.schema import ImageConfig
+from wm.schema import BESIDE, BackendSettings
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
+from wm.synth.registry import DRAWN
 from wm.types import OUTSIDE, Camera, SceneObject, View
 
+VERSION = "1"
+PROVIDES = (DRAWN,)
 SURE = 0.85
 """How far known a pixel must be before its tone counts: below, the condition is part grey depth."""
 RECOGNISED = 0.01
@@ -58,6 +62,29 @@ COARSE = 0.04
 """Metres between texels, at least, of the world that is drawn to furnish empty rooms; its edges are not supersampled."""
 
 
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
+class Settings(BackendSettings):
+    """How fine the painter's world is, and how strong the flaws of its images are."""
+
+    backend: str = setting(__name__, "The offline image model.")
+    drift: float = number(0.02, 0, 1, "Standard deviation of the tone a view invents where its condition shows only depth.")
+    imaginations: int = number(
+        3, 0, 100, "Worlds that a view's seed picks from for what its condition leaves open; 0: always the scene's own."
+    )
+    exposure: float = number(0.0, 0, 1, "Standard deviation of a view's brightness, also where its condition shows the tone.")
+    phase: float = number(0.0, 0, 1000, "Pixels at 1376 wide by which fine detail strays.", unit="px")
+    softness: float = number(0.0, 0, 1000, "Pixels at 1376 wide by which the image is blurred.", unit="px")
+    closed: float = number(0.0, 0, 1, "Share of the images in which a doorway is shut.")
+    missing: float = number(0.0, 0, 1, "Share of the images in which a thing is not drawn.")
+    added: float = number(0.0, 0, 1, "Share of the images in which a thing is drawn twice.")
+    moved: float = number(0.0, 0, 1, "Share of the images in which a thing stands elsewhere.")
+    supersampling: int = number(2, 1, 16, "Geometry samples per pixel side.")
+    texel_size: float = number(
+        0.01, 0.001, 1, "Distance between texels of the world's surfaces; its light is as much coarser or finer.", unit="m"
+    )
+    worker: bool = setting(True, "Shade in a process of its own, where there is a core for it.", **BESIDE)
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Scenery:
     """A world under the camera, and the scene it is made of."""
@@ -72,7 +99,7 @@ class ProceduralImages:
 
     scene: SceneContext
     make_world: Callable[[SceneContext, Imagination], World | WorkerWorld]  # of an imagined scene, in its finish
-    config: ImageConfig
+    config: Settings
     _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
     _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
     _scenes: dict[Imagination, SceneContext] = dataclasses.field(default_factory=dict)  # of imaginations in the scene's finish
@@ -161,7 +188,8 @@ class ProceduralImages:
     def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
         rng = np.random.default_rng(_stream(request.seed, 0xBAD))
         objects = request.condition.objects != "none" or request.task == "furnish"
-        return draw_violation(self.config, scenery.context, request.view, shot.gbuffer, shot.object, rng, objects=objects)
+        shares = {kind: getattr(self.config, kind) for kind in KINDS}
+        return draw_violation(shares, scenery.context, request.view, shot.gbuffer, shot.object, rng, objects=objects)
 
     def _painted(self, request: ImageRequest, shot: Shot) -> Float[np.ndarray, "h w 3"]:
         """The shot in the tone that the condition has, with the model's imperfections."""
@@ -193,7 +221,7 @@ class ProceduralImages:
         return self._shots[key]
 
 
-def make(config: ImageConfig, context: SceneContext) -> ProceduralImages:
+def make(config: Settings, context: SceneContext) -> ProceduralImages:
     """The offline image backend of a scene. Raises: ValueError for a texel size that is not a positive length."""
     fine, coarse = bake_settings(config.texel_size), bake_settings(max(config.texel_size, COARSE))
     apart = config.worker and cores() > 1 and os.name == "posix"

@@ -7,6 +7,7 @@ that was drawn does not happen.
 
 import dataclasses
 import math
+from collections.abc import Mapping
 
 import numpy as np
 import shapely
@@ -16,7 +17,6 @@ from wm.geometry.plan.footprint import Portal, portals
 from wm.geometry.plan.site import room_site
 from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.offline.world.edit import Edit
-from wm.schema import ImageConfig
 from wm.synth.backends import SceneContext
 from wm.types import GBuffer, SceneObject, View
 
@@ -40,20 +40,21 @@ class Violation:
 
 
 def draw_violation(
-    config: ImageConfig, context: SceneContext, view: View, gbuffer: GBuffer, thing: np.ndarray, rng: np.random.Generator,
+    shares: Mapping[str, float], context: SceneContext, view: View, gbuffer: GBuffer, thing: np.ndarray, rng: np.random.Generator,
     *, objects: bool = True,
 ) -> Violation | None:  # fmt: skip
-    """What goes wrong in one sample, at the shares of the configuration; None for nothing.
+    """What goes wrong in one sample; None for nothing.
 
     Args:
+      shares: of all samples, by kind (KINDS), in which that goes wrong.
       gbuffer, thing: what the view shows without: the [h, w] object of each pixel, OUTSIDE for structure.
       objects: whether the condition shows objects: where it shows none, none can be missing.
     """
     draw = float(rng.random())
-    for kind, share in zip(KINDS, (config.closed, config.missing, config.added, config.moved)):
-        if draw < share:
+    for kind in KINDS:
+        if draw < shares[kind]:
             return violation(kind, context, view, gbuffer, thing, rng) if objects or kind == "closed" else None
-        draw -= share
+        draw -= shares[kind]
     return None
 
 

@@ -5,19 +5,31 @@ A proposal is drafted from the theme (building.py), the programme (programme.py)
 wrong it keeps the rooms and places openings anew, otherwise it drafts another house.
 """
 
+import dataclasses
 import json
 import zlib
 from typing import Any
 
 import numpy as np
 
+from wm.bounds import setting
 from wm.offline.language.building import Building, building_of, draw
 from wm.offline.language.massing import draft
 from wm.offline.language.openings import Hole, place_openings
 from wm.offline.language.programme import CIRCULATION, Space, kind_of, read_programme
+from wm.schema import BackendSettings
+from wm.synth.backends import SceneContext
 
+VERSION = "1"
 WALL_THICKNESS = 0.15
 _OF_OPENINGS = ("opening", "door", "window", "passage")
+
+
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
+class Settings(BackendSettings):
+    """The grammar has no knobs."""
+
+    backend: str = setting(__name__, "The offline grammar of houses.")
 
 
 class Grammar:
@@ -39,7 +51,7 @@ class Grammar:
         return _as_json(spaces, polygons, ceilings, holes)
 
 
-def make(config: Any, context: Any) -> Grammar:
+def make(settings: Settings, context: SceneContext | None = None) -> Grammar:
     """The backend; it needs neither settings nor a scene."""
     return Grammar()
 

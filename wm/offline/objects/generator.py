@@ -2,18 +2,26 @@
 
 import dataclasses
 
+from wm.bounds import setting
 from wm.offline.arrangement.furnishing import furnish_room
 from wm.offline.style.theme import style_of
-from wm.schema import ObjectsConfig
+from wm.schema import BackendSettings
 from wm.synth.backends import SceneContext
 from wm.types import SceneObject
+
+VERSION = "1"
+
+
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
+class Settings(BackendSettings):
+    """The generator has no knobs."""
+
+    backend: str = setting(__name__, "The offline generator of furnished rooms.")
 
 
 @dataclasses.dataclass(frozen=True)
 class ProceduralObjects:
     """Furnishes rooms out of the theme's words, the room's name and the seed."""
-
-    config: ObjectsConfig
 
     def furnish(self, context: SceneContext, room: int) -> list[SceneObject]:
         """The objects of one room, placed in world space.
@@ -27,6 +35,6 @@ class ProceduralObjects:
         return furnish_room(context.plan, room, style_of(context.theme), seed=context.seed, density=context.density)
 
 
-def make(config: ObjectsConfig, context: SceneContext | None = None) -> ProceduralObjects:
+def make(settings: Settings, context: SceneContext | None = None) -> ProceduralObjects:
     """The offline objects backend; it keeps nothing of the scene it is made for."""
-    return ProceduralObjects(config)
+    return ProceduralObjects()

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
+from wm.bounds import setting
 from wm.geometry.placement.upright import transformed
 from wm.geometry.placement.upright_box import UprightBox
 from wm.geometry.plan.site import Site
@@ -25,11 +26,12 @@ from wm.offline.reconstruction.template_fit import fit_template
 from wm.offline.reconstruction.texturing import textured
 from wm.offline.style.finish import Style
 from wm.offline.style.theme import style_of
-from wm.schema import ObjectsConfig
+from wm.schema import BackendSettings
 from wm.synth.backends import Observation, Reconstruction, SceneContext
 from wm.synth.lifting.observations import near_together, observation_points, trimmed
 from wm.types import SceneObject
 
+VERSION = "1"
 _POINTS = 240
 """Points a thing is fitted to."""
 _OUTSIDE = 0.05
@@ -38,6 +40,13 @@ _SPLINTER = 0.5
 """Share of its kind's least height below which a fit has gone astray."""
 _LEAST = 12
 """Points below which nothing can be said."""
+
+
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
+class Settings(BackendSettings):
+    """Reconstruction by templates has no knobs."""
+
+    backend: str = setting(__name__, "The offline reconstruction.")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,7 +89,7 @@ class TemplateReconstruction:
         )
 
 
-def make(config: ObjectsConfig, context: SceneContext) -> TemplateReconstruction:
+def make(settings: Settings, context: SceneContext) -> TemplateReconstruction:
     """The reconstruction by templates in the style of the scene's theme; it has no settings."""
     return TemplateReconstruction(style_of(context.theme))
 

@@ -1,7 +1,7 @@
 """The offline segmentation: what the offline image model drew, as a segmenter would return it.
 
 It knows every pixel's object; what it returns has ragged borders, takes some touching neighbours of one kind for one thing, and
-misses some of the small things, at the strengths of ObjectsConfig.
+misses some of the small things, at the strengths of its Settings.
 """
 
 import dataclasses
@@ -9,20 +9,34 @@ import dataclasses
 import numpy as np
 from scipy import ndimage
 
-from wm.schema import ObjectsConfig
+from wm.bounds import number, setting
+from wm.schema import BackendSettings
 from wm.synth.backends import ImageResult, SceneContext, Segment
+from wm.synth.registry import DRAWN
 
+VERSION = "1"
+REQUIRES = (DRAWN,)
 _GRAIN = 3.0
 """Pixels over which a border strays alike."""
 _SMALL = 2e-3
 """Share of the image below which a thing is small."""
 
 
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
+class Settings(BackendSettings):
+    """How wrong the segments are."""
+
+    backend: str = setting(__name__, "The offline segmentation.")
+    ragged: float = number(1.0, 0, 100, "Distance by which borders stray.", unit="px")
+    merged: float = number(0.1, 0, 1, "Share of touching neighbours of one kind that are taken for one thing.")
+    missed: float = number(0.25, 0, 1, "Share of small things that are missed.")
+
+
 @dataclasses.dataclass(frozen=True)
 class DrawnSegmentation:
     """The backend."""
 
-    config: ObjectsConfig
+    config: Settings
 
     def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
         """The things of an image.
@@ -32,7 +46,7 @@ class DrawnSegmentation:
         """
         if result.drawn_object is None:
             raise ValueError(
-                "objects.segmentation='drawn' goes by what an offline image model tells that it drew; this image tells nothing: "
+                "the offline segmentation goes by what an offline image model tells that it drew; this image tells nothing: "
                 "a model of images needs one that segments them"
             )
         rng = np.random.default_rng(np.random.SeedSequence([seed, 0x5E6]))
@@ -47,7 +61,7 @@ class DrawnSegmentation:
         return [segment for segment in segments if segment.mask.any()]
 
 
-def make(config: ObjectsConfig, context: SceneContext | None = None) -> DrawnSegmentation:
+def make(config: Settings, context: SceneContext | None = None) -> DrawnSegmentation:
     """The offline segmentation; it needs nothing of the scene."""
     return DrawnSegmentation(config)
 

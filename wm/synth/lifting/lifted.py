@@ -17,7 +17,7 @@ import dataclasses
 
 import numpy as np
 
-from wm.errors import InputError
+from wm.bounds import number, setting
 from wm.geometry.cameras.views import bootstrap_cameras
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.placement.placing import Placement, place_objects
@@ -25,7 +25,7 @@ from wm.geometry.placement.upright import levelled, transformed
 from wm.geometry.placement.upright_box import box_of
 from wm.geometry.plan.site import Site, room_site
 from wm.geometry.rays.raycast import RayScene, build_ray_scene, cast
-from wm.schema import CameraSettings, DepthConfig, ImageConfig, ObjectsConfig
+from wm.schema import BackendSettings, CameraSettings
 from wm.synth.backends import (
     Condition,
     DepthBackend,
@@ -33,15 +33,13 @@ from wm.synth.backends import (
     ImageRequest,
     ImageResult,
     ImaginingBackend,
+    ModelSettings,
     Observation,
     Reconstruction,
     ReconstructionBackend,
     SceneContext,
     Segment,
     SegmentationBackend,
-    close_backend,
-    make_backend,
-    mismatch,
 )
 from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.condition import depth_grey
@@ -50,8 +48,23 @@ from wm.synth.lifting.observations import Instance, gather, in_room, joined
 from wm.synth.lifting.segments import tidy_segments
 from wm.synth.lifting.unlit import unlit
 from wm.synth.prompts import furnish_prompt
+from wm.synth.registry import BackendError, close_backend, make_backend, mismatch
 from wm.synth.sights import sights
 from wm.types import Camera, SceneObject, View
+
+VERSION = "1"
+USES = ("image", "depth", "segmentation", "reconstruction")
+
+
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
+class Settings(BackendSettings):
+    """The images that rooms are lifted from, and what is left out of them."""
+
+    backend: str = setting(__name__, "Furniture lifted out of images of each room.")
+    image_width: int = number(640, 16, 16384, "Width of the images that rooms are lifted from.", unit="px")
+    image_height: int = number(480, 16, 16384, "Height of the images that rooms are lifted from.", unit="px")
+    fov: float = number(90.0, 5, 150, "Vertical field of view of the images that rooms are lifted from.", unit="degrees")
+    min_area: float = number(2e-4, 0, 1, "Share of the image below which a segment is discarded.")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -90,21 +103,20 @@ class LiftedRoom:
 class LiftedObjects:
     """The backend. It holds the models of the scene that it furnished last, and with them processes, until it is closed."""
 
-    def __init__(self, config: ObjectsConfig, *, image: ImageConfig | None = None, depth: DepthConfig | None = None):
+    def __init__(self, config: Settings, asked: ModelSettings | None = None):
         self.config = config
-        self._image = image or ImageConfig()
-        self._depth = depth or DepthConfig()
+        self._asked = asked
         self._held: tuple[SceneContext, Models] | None = None
 
-    def with_models(self, image: ImageConfig, depth: DepthConfig) -> "LiftedObjects":
-        """A backend with the same settings, its images drawn and their depth estimated by these."""
-        return LiftedObjects(self.config, image=image, depth=depth)
+    def with_models(self, models: ModelSettings) -> "LiftedObjects":
+        """A backend with the same settings that asks the models that these select."""
+        return LiftedObjects(self.config, models)
 
     def furnish(self, context: SceneContext, room: int) -> list[SceneObject]:
         """The objects of one room, placed in world space.
 
         Raises:
-          InputError: the selected models do not go together.
+          BackendError: no models were selected, or those selected do not go together.
           ValueError: the room has no free spot for a camera, or the image model refuses the scene.
         """
         return self.lift(context, room).objects
@@ -121,17 +133,20 @@ class LiftedObjects:
         """The selected models for a scene, with `image` for the image model if it is given. The caller closes them.
 
         Raises:
-          InputError: the selected models do not go together.
+          BackendError: no models were selected (`with_models`), or those selected do not go together.
         """
+        asked = self._asked
+        if asked is None:
+            raise BackendError("lifted furniture needs models of images, depth, segmentation, reconstruction: with_models(...)")
         if image is None:
-            faults = mismatch("depth", self._depth, self._image) + mismatch("segmentation", self.config, self._image)
+            faults = mismatch("depth", asked.depth, asked.image) + mismatch("segmentation", asked.segmentation, asked.image)
             if faults:
-                raise InputError("; ".join(faults))
+                raise BackendError("; ".join(faults))
         return Models(
-            image=image if image is not None else make_backend("image", self._image, context),
-            depth=make_backend("depth", self._depth, context),
-            segmentation=make_backend("segmentation", self.config, context),
-            reconstruction=make_backend("reconstruction", self.config, context),
+            image=image if image is not None else make_backend("image", asked.image, context),
+            depth=make_backend("depth", asked.depth, context),
+            segmentation=make_backend("segmentation", asked.segmentation, context),
+            reconstruction=make_backend("reconstruction", asked.reconstruction, context),
         )
 
     def close(self) -> None:
@@ -145,7 +160,7 @@ class LiftedObjects:
                 done.callback(close_backend, backend)
 
 
-def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: ObjectsConfig) -> list[Camera]:
+def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: Settings) -> list[Camera]:
     """The bootstrap cameras that a room is drawn from, clear of the furniture that the image model says it will draw.
 
     Raises:
@@ -156,7 +171,7 @@ def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: 
     return bootstrap_cameras(context.plan, build_ray_scene(assemble_scene(context.structure, furniture)), room, settings)
 
 
-def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: ObjectsConfig) -> LiftedRoom:
+def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: Settings) -> LiftedRoom:
     """One room drawn from these cameras, segmented, reconstructed and placed."""
     bare = build_ray_scene(context.structure)
     site = room_site(context.plan, room)
@@ -192,7 +207,7 @@ def _reconstructed(
 
 
 def draw(
-    context: SceneContext, room: int, camera: Camera, bare: RayScene, models: Models, config: ObjectsConfig,
+    context: SceneContext, room: int, camera: Camera, bare: RayScene, models: Models, config: Settings,
     *, reference: Drawing | None, seed: int,
 ) -> Drawing | None:  # fmt: skip
     """One image of the room furnished, with its segments; None if its depth cannot be made metric."""
@@ -230,6 +245,6 @@ def _seed(*numbers: int) -> int:
     return int(np.random.SeedSequence([*numbers, 0x11F7]).generate_state(1)[0])
 
 
-def make(config: ObjectsConfig, context: SceneContext | None = None) -> LiftedObjects:
-    """The image-driven backend. Its image and depth models are the default ones until `with_models` is called."""
+def make(config: Settings, context: SceneContext | None = None) -> LiftedObjects:
+    """The image-driven backend. It furnishes nothing until `with_models` says which models it asks."""
     return LiftedObjects(config)

@@ -1,0 +1,157 @@
+"""The registry: a settings record names the module of its backend, and that module alone is imported.
+
+A backend is a module with
+
+    make(settings, context) -> a backend of its group's protocol (wm.synth.backends)
+    Settings                -> its own knobs: a dataclass that extends wm.schema.BackendSettings, its `backend` the module's path
+    VERSION                 -> a string that changes whenever its results do
+
+and a YAML that says `backend: <path>` in the folder of its group: conf/image/, or image/ in the folder that `--config-dir` names.
+Stages whose result depends on a backend are keyed by its path, its settings and its version. A module may also have
+
+    PROVIDES                -> of an image backend: what its results tell beyond the protocol, such as DRAWN
+    REQUIRES                -> which of that it needs of the image backend beside it
+    USES                    -> the groups of backends that it asks in its turn
+"""
+
+import importlib
+from collections.abc import Iterator, Mapping
+from types import ModuleType
+from typing import Any
+
+from wm.errors import InputError
+from wm.schema import BackendSettings, RunConfig
+from wm.synth.backends import (
+    ClosableBackend,
+    DepthBackend,
+    ImageBackend,
+    LanguageBackend,
+    ModelSettings,
+    ObjectsBackend,
+    ReconstructionBackend,
+    SceneContext,
+    SegmentationBackend,
+)
+
+GROUPS: Mapping[str, type] = {
+    "language": LanguageBackend,
+    "image": ImageBackend,
+    "objects": ObjectsBackend,
+    "depth": DepthBackend,
+    "segmentation": SegmentationBackend,
+    "reconstruction": ReconstructionBackend,
+}
+"""Every group of backends and its protocol. Each is a field of wm.schema.RunConfig and a folder of conf/."""
+
+DRAWN = "drawn"
+"""Of an image backend: its results tell what they drew (`ImageResult.drawn_*`), as no real model's do."""
+
+
+class BackendError(InputError):
+    """A backend that cannot be used; the message names its path and what would be right."""
+
+
+def backend_module(path: str) -> ModuleType:
+    """The module of a backend, imported.
+
+    Raises:
+      BackendError: there is no such module, importing it fails, or it is no backend.
+    """
+    if not path:
+        raise BackendError("no backend is selected; a settings record of a backend module, or GROUP=NAME of conf/, selects one")
+    try:
+        module = importlib.import_module(path)
+    except Exception as error:  # a module of anybody's may raise anything while it is imported
+        raise BackendError(f"backend {path!r} cannot be imported: {type(error).__name__}: {error}") from error
+    missing = [name for name in ("make", "Settings", "VERSION") if not hasattr(module, name)]
+    if missing:
+        lacks = ", ".join(missing)
+        raise BackendError(f"module {path!r} is no backend: it has no {lacks} (help('wm.synth.registry') says what they are)")
+    settings = module.Settings
+    if not (isinstance(settings, type) and issubclass(settings, BackendSettings) and settings().backend == path):
+        wanted = f"with {path!r} as the default of its `backend`"
+        raise BackendError(f"{path}.Settings must be a dataclass that extends wm.schema.BackendSettings, {wanted}")
+    return module
+
+
+def make_backend(group: str, settings: BackendSettings, context: SceneContext | None = None) -> Any:
+    """The selected backend of a group.
+
+    Args:
+      group: one of GROUPS.
+      settings: what selects it: the Settings of its module. A plain BackendSettings selects the module's defaults.
+      context: the scene; None for the language backend, which comes before it.
+
+    Raises:
+      ValueError: there is no such group.
+      BackendError: the module cannot be imported, the settings are another's, or what it makes is no backend of the group.
+    """
+    if group not in GROUPS:
+        raise ValueError(f"no group of backends is called {group!r}; groups: {', '.join(GROUPS)}")
+    module = backend_module(settings.backend)
+    backend = module.make(_own(settings, module), context)
+    if not isinstance(backend, GROUPS[group]):
+        wanted = sorted(name for name in vars(GROUPS[group]) if not name.startswith("_"))
+        raise BackendError(
+            f"{group} backend {settings.backend!r}: make() returned a {type(backend).__name__}, which has not all methods of "
+            f"{GROUPS[group].__name__}: {', '.join(wanted)}"
+        )
+    return backend
+
+
+def backend_key(settings: BackendSettings) -> tuple[Any, ...]:
+    """What a stage's key says of a backend: its settings, which hold its path, and its version."""
+    return settings, backend_module(settings.backend).VERSION
+
+
+def close_backend(backend: Any) -> None:
+    """Ends what a backend holds, if it holds anything."""
+    if isinstance(backend, ClosableBackend):
+        backend.close()
+
+
+def model_settings(config: RunConfig) -> ModelSettings:
+    """The models of a run, for the objects backend that asks them."""
+    return ModelSettings(
+        image=config.image, depth=config.depth, segmentation=config.segmentation, reconstruction=config.reconstruction
+    )
+
+
+def mismatch(group: str, settings: BackendSettings, image: BackendSettings) -> list[str]:
+    """What is wrong, if anything, with a backend of this group beside an image backend."""
+    needed = set(getattr(backend_module(settings.backend), "REQUIRES", ()))
+    missing = needed - set(getattr(backend_module(image.backend), "PROVIDES", ()))
+    if not missing:
+        return []
+    needs = f"{group} backend {settings.backend!r} needs what image backend {image.backend!r} does not tell"
+    return [f"{needs} ({', '.join(sorted(missing))}): choose another {group}=NAME, or an image=NAME that tells it"]
+
+
+def mismatches(config: RunConfig) -> list[str]:
+    """The backends of a run that do not go together, each with both of its groups, of those that the run will ask."""
+    asked = {"depth"} if config.verify.enabled else set()
+    if config.furnish.enabled:
+        asked |= {"objects", *getattr(backend_module(config.objects.backend), "USES", ())}
+    return [fault for group in GROUPS if group in asked for fault in mismatch(group, getattr(config, group), config.image)]
+
+
+def misplaced(config: RunConfig) -> Iterator[str]:
+    """The groups of a run whose settings are not those of the backend that they name."""
+    for group in GROUPS:
+        settings: BackendSettings = getattr(config, group)
+        try:
+            _own(settings, backend_module(settings.backend))
+        except BackendError as error:
+            yield f"{group}: {error}"
+
+
+def _own(settings: BackendSettings, module: ModuleType) -> BackendSettings:
+    """The settings as the module's own record."""
+    if type(settings) is BackendSettings:
+        return module.Settings()
+    if not isinstance(settings, module.Settings):
+        raise BackendError(
+            f"settings of {type(settings).__module__} do not suit backend {settings.backend!r}; a YAML's `backend` chooses both, "
+            "so GROUP=NAME is changed and not GROUP.backend"
+        )
+    return settings
