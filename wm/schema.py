@@ -1,13 +1,17 @@
 """Every knob, as kw_only dataclasses: the Hydra schema, and the settings records that functions take.
 
-Standard library only. Angles are degrees here and radians inside; lengths are metres, image sizes pixels. Hydra composes
-these from conf/ (unknown keys raise); `hash` lets one be a static argument of a jitted function, so treat a record as
-read-only once made (`dataclasses.replace` makes a changed copy).
+Standard library only. Each field says beside its default what it is for, and what it may hold (`wm.bounds`). Angles are degrees
+here and radians inside; lengths are metres, image sizes pixels. Hydra composes these from conf/ (unknown keys raise); `hash`
+lets one be a static argument of a jitted function, so treat a record as read-only once made (`dataclasses.replace` makes a
+changed copy).
 """
 
 from dataclasses import dataclass, field
+from typing import Any
 
-BESIDE = {"identity": False}
+from wm.bounds import choice, number, setting
+
+BESIDE: dict[str, Any] = {"identity": False}
 """Metadata of a field that changes no stage's result: runs that differ in it alone are the same run."""
 
 
@@ -15,191 +19,242 @@ BESIDE = {"identity": False}
 class SceneConfig:
     """What is wanted, in words: conf/scene/*.yaml."""
 
-    name: str = "unnamed"
-    theme: str = ""
-    rooms: list[str] = field(default_factory=list)  # the room programme: hall, library, kitchen, bedroom, bathroom ...
+    name: str = setting("unnamed", "Name of the scene, and of its run folder.")
+    theme: str = setting("", "What the scene should be, in words.")
+    rooms: list[str] = field(
+        default_factory=list, metadata={"help": "The room programme: hall, library, kitchen, bedroom, bathroom ..."}
+    )
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class PlanConfig:
     """Where the floor plan comes from."""
 
-    file: str | None = None  # a plan of the user's own; None asks the language backend
-    max_iterations: int = 8  # propose - validate - correct rounds before giving up
+    file: str | None = setting(None, "A plan of the user's own; None asks the language backend.")
+    max_iterations: int = number(8, 1, 1000, "Propose - validate - correct rounds before giving up.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class CameraSettings:
     """View planning (paper, "Camera Viewpoint Generation")."""
 
-    width: int = 688
-    height: int = 384
-    fov: float = 60.0  # vertical; the paper's 60 degrees is vertical in its code
-    eye_height: float = 1.6
-    perimeter: int = 16
-    overhead: int = 8
-    doorway: bool = True  # one view through each doorway: ours, the paper has none
-    wall_offset: float = 0.4
-    prune_angle: float = 10.0  # perimeter views this close to a bootstrap view are dropped
-    clearance: float = 0.3  # free air around a camera
-    heldout_per_room: int = 8
+    width: int = number(688, 16, 16384, "Width of the images.", unit="px")
+    height: int = number(384, 16, 16384, "Height of the images.", unit="px")
+    fov: float = number(60.0, 5, 150, "Vertical field of view; the paper's 60 degrees is vertical in its code.", unit="degrees")
+    eye_height: float = number(1.6, 0.2, 5, "Height of a standing viewer's eyes above the floor.", unit="m")
+    perimeter: int = number(16, 0, 1000, "Views from along the walls of a room.")
+    overhead: int = number(8, 0, 1000, "Views from below the ceiling of a room.")
+    doorway: bool = setting(True, "One view through each doorway: ours, the paper has none.")
+    wall_offset: float = number(0.4, 0.05, 5, "Distance of the perimeter views from the walls.", unit="m")
+    prune_angle: float = number(10.0, 0, 180, "Perimeter views this close to a bootstrap view are dropped.", unit="degrees")
+    clearance: float = number(0.3, 0, 2, "Free air around a camera.", unit="m")
+    heldout_per_room: int = number(8, 0, 1000, "Views of each room that are kept from the fit, to judge it by.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class FurnishConfig:
-    enabled: bool = True
-    density: float = 1.0  # 0..1: share of the optional pieces that are tried
+    enabled: bool = setting(True, "Put furniture into the rooms.")
+    density: float = number(1.0, 0, 1, "Share of the optional pieces that are tried.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class TextureSettings:
     """Texture accumulation (paper, "Scaffold Mesh Texturing Details")."""
 
-    texel_size: float = 0.02
-    min_facing: float = 0.15  # cosine between normal and view below which nothing is projected; below 1
-    occlusion_tolerance: float = 0.02  # metres beyond the local depth maximum; the paper's 0.10 leaks (facts.md)
-    opaque_weight: float = 0.5  # weight at which a texel counts as fully known
+    texel_size: float = number(0.02, 0.001, 1, "Distance between texels of the scaffold's texture.", unit="m")
+    # below 1, since the weight of a view divides by what is left to 1
+    min_facing: float = number(
+        0.15, 0, 1, "Cosine between normal and view below which nothing is projected; below 1.", below=True
+    )
+    occlusion_tolerance: float = number(
+        0.02,
+        0,
+        1,
+        "Depth beyond the local maximum at which a surface still counts as seen; the paper's 0.10 leaks (facts.md).",
+        unit="m",
+    )
+    opaque_weight: float = number(0.5, 1e-6, 1e6, "Weight at which a texel counts as fully known.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class ConditionConfig:
     """Which of the scaffold's signals the image model is shown (paper, ablation of conditioning modalities)."""
 
-    wall_texture: bool = True
-    objects: str = "textured"  # textured | boxes | none
+    wall_texture: bool = setting(True, "Show the texture that earlier views have left on the scaffold.")
+    objects: str = choice("textured", ("textured", "boxes", "none"), "How the scaffold's objects are shown.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class VerifySettings:
     """Depth-edge recall (paper, "Image Verification"), and ours: depth that disagrees."""
 
-    enabled: bool = True
-    low: float = 0.1  # Canny thresholds as shares of the normalised depth range
-    high: float = 0.3
-    dilation: int = 10  # pixels at 1376 wide, scaled with the image
-    min_recall: float = 0.35  # sound images reach 0.40 and more in every view of the five scenes (experiments/verification)
-    tolerance: float = 0.1  # of the scaffold's depth, beyond which an estimate disagrees with it
-    max_disagreement: float = 0.0012  # share of the image that may; 1: recall alone decides, as in the paper
-    max_attempts: int = 8
-
-
-COMPOSITORS = ("auto", "loops", "kernels", "interpreted")
-PLANNERS = ("auto", "host", "traced")
+    enabled: bool = setting(True, "Refuse images that lose the scaffold's structure.")
+    low: float = number(0.1, 0, 1, "Lower Canny threshold as a share of the normalised depth range; at most `high`.")
+    high: float = number(0.3, 0, 1, "Upper Canny threshold as a share of the normalised depth range.")
+    dilation: int = number(10, 0, 1000, "How far an edge may stray, in pixels at 1376 wide, scaled with the image.", unit="px")
+    min_recall: float = number(
+        0.35,
+        0,
+        1,
+        "Least recall of an image; sound ones reach 0.40 and more in every view of the five scenes (experiments/verification).",
+    )
+    tolerance: float = number(0.1, 0, 10, "Share of the scaffold's depth beyond which an estimate disagrees with it.")
+    max_disagreement: float = number(
+        0.0012, 0, 1, "Share of the image that may disagree; 1: recall alone decides, as in the paper."
+    )
+    max_attempts: int = number(8, 1, 1000, "Images of a view that are tried before the best of them is taken.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class RasterSettings:
     """The constants of the rasterizer (design.md section 5); static under jit."""
 
-    blur: float = 0.3  # px^2 added to the diagonal of the projected covariance
-    alpha_min: float = 1 / 255  # contributions below are dropped
-    alpha_max: float = 0.99  # and clamped above, in value and gradient
-    transmittance_min: float = 1e-4  # a pixel is finished below
-    near: float = 0.05  # metres
-    frustum_margin: float = 1.3  # EWA Jacobian clamped at this multiple of tan(fov / 2)
-    depth: bool = True  # False leaves depth out of the render (it is 0 then) and of its cost
-    slanted: bool = True  # depth varies over a gaussian's ellipse as its surface does; False: that of its centre, as in 3DGS
-    antialias: bool = False  # opacities fall by what the blur adds to the area, so that small gaussians do not grow brighter
-    compositor: str = "auto"  # COMPOSITORS: kernels run on NVIDIA GPUs, interpreted ones and loops anywhere; auto is the fastest
-    planner: str = "auto"  # PLANNERS: where tiles are planned; auto is on the host for a CPU, traced (in the graph) elsewhere
-    tile: int = 8
-    chunk: int = 8
-    block: int = 64
+    blur: float = number(0.3, 0, 100, "Added to the diagonal of the projected covariance.", unit="px^2")
+    alpha_min: float = number(1 / 255, 1e-30, 1, "Contributions below are dropped; below `alpha_max`.")
+    alpha_max: float = number(0.99, 0, 1, "Contributions are clamped above, in value and gradient.")
+    # below 1, or nothing would be rendered
+    transmittance_min: float = number(1e-4, 0, 1, "A pixel is finished below this transmittance.", below=True)
+    near: float = number(0.05, 1e-6, 10, "Gaussians nearer than this are not rendered.", unit="m")
+    frustum_margin: float = number(1.3, 1, 10, "The EWA Jacobian is clamped at this multiple of tan(fov / 2).")
+    depth: bool = setting(True, "False leaves depth out of the render (it is 0 then) and of its cost.")
+    slanted: bool = setting(
+        True, "Depth varies over a gaussian's ellipse as its surface does; False: that of its centre, as in 3DGS."
+    )
+    antialias: bool = setting(
+        False, "Opacities fall by what the blur adds to the area, so that small gaussians do not grow brighter."
+    )
+    compositor: str = choice(
+        "auto",
+        ("auto", "loops", "kernels", "interpreted"),
+        "What composites: kernels run on NVIDIA GPUs, interpreted ones and loops anywhere; auto is the fastest.",
+    )
+    planner: str = choice(
+        "auto",
+        ("auto", "host", "traced"),
+        "Where tiles are planned; auto is on the host for a CPU, traced (in the graph) elsewhere.",
+    )
+    tile: int = number(8, 1, 64, "Side of a tile; kernels want a power of two.", unit="px")
+    chunk: int = number(8, 1, 1024, "Gaussians that a tile composites in one iteration of the loops.")
+    block: int = number(64, 1, 4096, "Tiles whose loops advance together.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class FitSettings:
     """Initialisation and optimisation of the gaussians (paper, "Geometry-Regularized 3DGS Scene Reconstruction")."""
 
-    init: str = "flat"  # flat | isotropic | random
-    spacing: float = 0.055  # metres between gaussians of the initial cloud
-    detail_spacing: float = 0.0275  # the same on objects and beside silhouettes
-    opacity: float = 0.9  # initial
-    steps: int = 120  # optimiser steps per room
-    batch: int = 1  # views a step, whose gradients are averaged
-    rounds: int = 1  # rooms see their neighbours' latest gaussians this many times
-    ssim_weight: float = 0.2
-    normal_weight: float = 0.5  # of the angle between the surface of the splat depth and the scaffold's; the paper has none
-    depth_weight: float = 1.5  # per metre; the paper's 0.7 leaves depth and normals a little worse (experiments/fit_defaults)
-    lr_means: float = 1.2e-3
-    lr_quats: float = 2e-2
-    lr_scales: float = 6e-2
-    lr_opacities: float = 0.2
-    lr_sh: float = 4e-2
-    lr_final: float = 0.1  # learning rates decay to this share
-    exposure: bool = False  # a gain and an offset for each view and channel, for image models that drift
-    lr_exposure: float = 0.05  # what they move by in a step if all pixels of a view are too bright
-    refine_every: int = 0  # steps between refinements, which give faint gaussians to where the residual stays; 0: none
-    refine_share: float = 0.05  # of all gaussians that move at most in one of them
-    refine_spare: float = 0.15  # of the initial cloud that are added unseen, to be given away first
-    refine_dead: float = 0.05  # opacity up to which a gaussian counts as faint
-    sh_degree: int = 0
-    curve_points: int = 6  # held-out evaluations along the fit
+    init: str = choice("flat", ("flat", "isotropic", "random"), "How gaussians start: flat on surfaces, round there, anywhere.")
+    spacing: float = number(0.055, 0.001, 1, "Distance between gaussians of the initial cloud.", unit="m")
+    detail_spacing: float = number(0.0275, 0.001, 1, "The same on objects and beside silhouettes.", unit="m")
+    opacity: float = number(0.9, 0.001, 0.999, "Initial opacity.")
+    steps: int = number(120, 0, 10_000_000, "Optimiser steps per room.")
+    batch: int = number(1, 1, 1000, "Views a step, whose gradients are averaged.")
+    rounds: int = number(1, 1, 1000, "Rooms see their neighbours' latest gaussians this many times.")
+    ssim_weight: float = number(0.2, 0, 1, "Share of the structural similarity in the loss of the colours.")
+    normal_weight: float = number(
+        0.5, 0, 1000, "Weight of the angle between the surface of the splat depth and the scaffold's; the paper has none."
+    )
+    depth_weight: float = number(
+        1.5,
+        0,
+        1000,
+        "Weight of the depth loss; the paper's 0.7 leaves depth and normals a little worse (experiments/fit_defaults).",
+        unit="1/m",
+    )
+    lr_means: float = number(1.2e-3, 0, 1000, "Learning rate of the centres.")
+    lr_quats: float = number(2e-2, 0, 1000, "Learning rate of the orientations.")
+    lr_scales: float = number(6e-2, 0, 1000, "Learning rate of the logarithms of the extents.")
+    lr_opacities: float = number(0.2, 0, 1000, "Learning rate of the opacities, as logits.")
+    lr_sh: float = number(4e-2, 0, 1000, "Learning rate of the colours.")
+    lr_final: float = number(0.1, 1e-9, 1e4, "Learning rates change geometrically to this share; above 1 they grow.")
+    exposure: bool = setting(False, "Fit a gain and an offset for each view and channel, for image models that drift.")
+    lr_exposure: float = number(0.05, 0, 1000, "What gain and offset move by in a step if all pixels of a view are too bright.")
+    refine_every: int = number(
+        0, 0, 10_000_000, "Steps between refinements, which give faint gaussians to where the residual stays; 0: none."
+    )
+    refine_share: float = number(0.05, 0, 0.5, "Share of all gaussians that move at most in one refinement.")
+    refine_spare: float = number(0.15, 0, 10, "Share of the initial cloud that is added unseen, to be given away first.")
+    refine_dead: float = number(0.05, 1e-6, 0.5, "Opacity up to which a gaussian counts as faint.")
+    sh_degree: int = number(0, 0, 3, "Degree of the spherical harmonics that colours are made of.")
+    curve_points: int = number(6, 0, 1000, "Held-out evaluations along the fit.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class NavigationSettings:
     """Occupancy grid (paper, "Navigability")."""
 
-    cell: float = 0.15
-    body_radius: float = 0.25
-    obstacle_height: float = 1.8  # floor-standing things below this block a body
+    cell: float = number(0.15, 0.01, 1, "Side of a cell of the grid.", unit="m")
+    body_radius: float = number(0.25, 0, 2, "Radius of the body that walks.", unit="m")
+    obstacle_height: float = number(1.8, 0, 10, "Floor-standing things below this block a body.", unit="m")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class EvaluateConfig:
-    min_overlap: float = 0.3  # share of shared surface for a reprojection pair
+    min_overlap: float = number(0.3, 0, 1, "Share of shared surface for a reprojection pair.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class ReportConfig:
-    enabled: bool = True
-    video: bool = True
-    fps: int = 10
-    walking_speed: float = 2.4  # metres a second along the fly-through
+    enabled: bool = setting(True, "Write the report page.")
+    video: bool = setting(True, "Write the fly-through.")
+    fps: int = number(10, 1, 240, "Frames of the fly-through a second.", unit="1/s")
+    walking_speed: float = number(2.4, 0.05, 50, "Speed along the fly-through.", unit="m/s")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class LanguageConfig:
-    name: str = "grammar"
+    name: str = setting("grammar", "The language backend.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class ImageConfig:
-    name: str = "procedural"
-    drift: float = 0.02  # standard deviation of the tone a view invents where its condition shows only depth
-    imaginations: int = 3  # worlds that a view's seed picks from for what its condition leaves open; 0: always the scene's own
-    exposure: float = 0.0  # standard deviation of a view's brightness, also where its condition shows the tone
-    phase: float = 0.0  # pixels at 1376 wide by which fine detail strays
-    softness: float = 0.0  # pixels at 1376 wide by which the image is blurred
-    closed: float = 0.0  # share of the images in which a doorway is shut
-    missing: float = 0.0  # in which a thing is not drawn
-    added: float = 0.0  # in which one is drawn twice
-    moved: float = 0.0  # in which one stands elsewhere
-    supersampling: int = 2  # geometry samples per pixel side
-    texel_size: float = 0.01  # metres between texels of the offline world's surfaces; its light is as much coarser or finer
-    worker: bool = field(default=True, metadata=BESIDE)  # shade in a process of its own, where there is a core for it
+    name: str = setting("procedural", "The image backend.")
+    drift: float = number(
+        0.02, 0, 1, "Standard deviation of the tone a view invents where its condition shows only depth."
+    )
+    imaginations: int = number(
+        3, 0, 100, "Worlds that a view's seed picks from for what its condition leaves open; 0: always the scene's own."
+    )
+    exposure: float = number(0.0, 0, 1, "Standard deviation of a view's brightness, also where its condition shows the tone.")
+    phase: float = number(0.0, 0, 1000, "Pixels at 1376 wide by which fine detail strays.", unit="px")
+    softness: float = number(0.0, 0, 1000, "Pixels at 1376 wide by which the image is blurred.", unit="px")
+    closed: float = number(0.0, 0, 1, "Share of the images in which a doorway is shut.")
+    missing: float = number(0.0, 0, 1, "Share of the images in which a thing is not drawn.")
+    added: float = number(0.0, 0, 1, "Share of the images in which a thing is drawn twice.")
+    moved: float = number(0.0, 0, 1, "Share of the images in which a thing stands elsewhere.")
+    supersampling: int = number(2, 1, 16, "Geometry samples per pixel side.")
+    texel_size: float = number(
+        0.01,
+        0.001,
+        1,
+        "Distance between texels of the offline world's surfaces; its light is as much coarser or finer.",
+        unit="m",
+    )
+    worker: bool = setting(True, "Shade in a process of its own, where there is a core for it.", **BESIDE)
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class ObjectsConfig:
-    name: str = "procedural"  # procedural: straight from the generator | lifted: from images of the room
-    segmentation: str = "drawn"  # what finds things in those images; drawn: offline, by what the offline image model drew
-    reconstruction: str = "templates"  # what makes a mesh of each
-    image_width: int = 640  # of the images that rooms are lifted from
-    image_height: int = 480
-    fov: float = 90.0  # vertical
-    min_area: float = 2e-4  # share of the image below which a segment is discarded
-    ragged: float = 1.0  # pixels by which the offline segmentation's borders stray
-    merged: float = 0.1  # share of touching neighbours of one kind that it takes for one thing
-    missed: float = 0.25  # share of small things that it misses
+    name: str = setting(
+        "procedural", "The objects backend; procedural: straight from the generator, lifted: from images of the room."
+    )
+    segmentation: str = setting(
+        "drawn", "What finds things in those images; drawn: offline, by what the offline image model drew."
+    )
+    reconstruction: str = setting("templates", "What makes a mesh of each thing found.")
+    image_width: int = number(640, 16, 16384, "Width of the images that rooms are lifted from.", unit="px")
+    image_height: int = number(480, 16, 16384, "Height of the images that rooms are lifted from.", unit="px")
+    fov: float = number(90.0, 5, 150, "Vertical field of view of the images that rooms are lifted from.", unit="degrees")
+    min_area: float = number(2e-4, 0, 1, "Share of the image below which a segment is discarded.")
+    ragged: float = number(1.0, 0, 100, "Distance by which the offline segmentation's borders stray.", unit="px")
+    merged: float = number(0.1, 0, 1, "Share of touching neighbours of one kind that it takes for one thing.")
+    missed: float = number(0.25, 0, 1, "Share of small things that it misses.")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
 class DepthConfig:
-    name: str = "procedural"
-    noise: float = 0.01  # relative, of the offline depth model
-    softness: float = 0.35  # pixels by which it blurs edges
+    name: str = setting("procedural", "The depth backend.")
+    noise: float = number(0.01, 0, 10, "Relative noise of the offline depth model.")
+    softness: float = number(0.35, 0, 100, "Distance by which it blurs edges.", unit="px")
 
 
 BACKEND_KEYS = {
@@ -233,14 +288,20 @@ class RunConfig:
     image: ImageConfig = field(default_factory=ImageConfig)
     objects: ObjectsConfig = field(default_factory=ObjectsConfig)
     depth: DepthConfig = field(default_factory=DepthConfig)
-    variant: str = "full"
-    preset: str = "standard"
-    seed: int = 0
-    output: str | None = field(default=None, metadata=BESIDE)  # run folder; None: Hydra's outputs/<scene>/<variant>/<seed>
-    # take finished stages over from runs of other variants beside this one, where they are the same
-    reuse: bool = field(default=True, metadata=BESIDE)
-    # a folder made by another configuration is refused unless this is true
-    overwrite: bool = field(default=False, metadata=BESIDE)
-    # processes that fit rooms side by side on a CPU; 0: threads, as fast on two cores; None: one a core
-    workers: int | None = field(default=0, metadata=BESIDE)
-    debug: bool = field(default=False, metadata=BESIDE)  # tracebacks instead of one-line errors
+    variant: str = setting("full", "Name of the ablation, and of its part of the run folder: conf/variant/*.yaml.")
+    preset: str = setting("standard", "Name of the size of the run: conf/preset/*.yaml.")
+    seed: int = number(0, 0, 2**63 - 1, "Seed of everything random.")
+    output: str | None = setting(None, "Run folder; None: Hydra's outputs/<scene>/<variant>/<seed>.", **BESIDE)
+    reuse: bool = setting(
+        True, "Take finished stages over from runs of other variants beside this one, where they are the same.", **BESIDE
+    )
+    overwrite: bool = setting(False, "A folder made by another configuration is refused unless this is true.", **BESIDE)
+    workers: int | None = number(
+        0,
+        0,
+        1000,
+        "Processes that fit rooms side by side on a CPU; 0: threads, as fast on two cores; None: one a core.",
+        null="one a core",
+        **BESIDE,
+    )
+    debug: bool = setting(False, "Tracebacks instead of one-line errors.", **BESIDE)

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
+from wm.bounds import check_settings
 from wm.geometry.mesh.object_colors import object_colors
 from wm.geometry.mesh.scene_mesh import BOX_COLOR
 from wm.geometry.rays.pinhole import ray_basis
@@ -49,8 +50,7 @@ def make_condition(
     Raises:
       ValueError: an unknown objects mode, an empty depth range, or objects that are not the mesh's.
     """
-    if settings.objects not in ("textured", "boxes", "none"):
-        raise ValueError(f"condition.objects is {settings.objects!r}; choices: textured, boxes, none")
+    check_settings("condition", settings)
     grey = depth_grey(gbuffer, depth_range)
     rgb = np.repeat(grey[..., None], 3, axis=-1)
     known = np.zeros(grey.shape, np.float32)

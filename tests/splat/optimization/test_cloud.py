@@ -177,7 +177,7 @@ def test_the_variants_share_count_and_differ_as_they_say():
     assert (random.means >= flat.means.min(0)).all() and (random.means <= flat.means.max(0)).all()
     colors = 0.5 + SH_C0 * flat.sh[:, 0]
     assert ((colors >= 0) & (colors <= 1)).all() and not flat.sh[:, 1:].any()
-    with pytest.raises(ValueError, match="flat, isotropic or random"):
+    with pytest.raises(ValueError, match=r"fit\.init 'round' is unknown; one of flat, isotropic, random"):
         initial_gaussians(views, settings=dataclasses.replace(settings, init="round"), rng=np.random.default_rng(0))
 
 

@@ -20,6 +20,7 @@ import dataclasses
 import numpy as np
 from jaxtyping import Bool, Float
 
+from wm.bounds import check_settings
 from wm.geometry.texture.atlas import chart_image
 from wm.geometry.texture.sampling import check_camera_of, pixel_charts
 from wm.schema import TextureSettings
@@ -77,7 +78,7 @@ def accumulate(
 
     Raises:
       ValueError: G-buffer, image or mask are not of the camera's size or not of their type, the atlas has no surface of the
-        room, or `min_facing` is not in [0, 1).
+        room, or a setting is outside its bounds.
     """
     copied = dataclasses.replace(atlas, color=atlas.color.copy(), weight=atlas.weight.copy())
     accumulate_in_place(copied, gbuffer, camera, rgb, room, settings, usable=usable)
@@ -136,8 +137,7 @@ def _check(
         raise ValueError(f"usable must be bool [{size[0]}, {size[1]}]; it is {usable.dtype} {list(usable.shape)}")
     if len(atlas.chart_room) and room not in atlas.chart_room:
         raise ValueError(f"room {room} has no surface in the atlas; it holds rooms {np.unique(atlas.chart_room).tolist()}")
-    if not 0 <= settings.min_facing < 1:
-        raise ValueError(f"min_facing is a cosine in [0, 1), not {settings.min_facing}")
+    check_settings("texture", settings)
 
 
 def _add(atlas: Atlas, picture: _Picture, chart: int, rows: slice, settings: TextureSettings) -> None:

@@ -8,6 +8,7 @@
     losses        what a fit minimises; normal_loss: the loss of normals
     padding       padding buckets, so that rooms and steps share what is compiled
     watch         divergence monitor; trouble: what is wrong, in words
+    checks        what is wrong with the settings of a fit
     curve         error against time
     exposure      tone of each view
     refinement    faint gaussians given to where the residual stays

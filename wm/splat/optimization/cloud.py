@@ -22,9 +22,9 @@ from scipy.spatial import KDTree
 
 from wm.geometry.rays.pinhole import camera_rotation, unproject_depth
 from wm.schema import FitSettings
+from wm.splat.optimization.checks import check_fit
 from wm.splat.optimization.padding import CULLED_LOGIT
 from wm.splat.optimization.training import TrainingView
-from wm.splat.rasterizer.checks import check_fit
 from wm.splat.rasterizer.harmonics import SH_C0
 from wm.types import Gaussians
 
@@ -169,8 +169,6 @@ def initial_gaussians(
         case "random":
             low, high = (points.min(0), points.max(0)) if n else (np.zeros(3), np.zeros(3))
             points, colors, opacity = low + rng.random((n, 3)) * (high - low), rng.random((n, 3)), RANDOM_OPACITY
-        case other:
-            raise ValueError(f"fit.init is {other!r}; flat, isotropic or random would be right")
     sh = np.zeros((n, (settings.sh_degree + 1) ** 2, 3))
     sh[:, 0] = (colors - 0.5) / SH_C0
     gaussians = Gaussians(

@@ -10,6 +10,7 @@ import numpy as np
 
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.optimization.batch import Compiled, Device, SeenView, default_device, to_target
+from wm.splat.optimization.checks import check_fit
 from wm.splat.optimization.curve import FitPoint
 from wm.splat.optimization.frozen import join_columns, pad_columns, visible_columns
 from wm.splat.optimization.padding import Capacity, host, pad_gaussians
@@ -17,7 +18,7 @@ from wm.splat.optimization.room_fit import Interrupted, RoomFit
 from wm.splat.optimization.room_state import RoomState, initial_state
 from wm.splat.optimization.step import project_view, raster_for
 from wm.splat.optimization.training import TrainingView
-from wm.splat.rasterizer.checks import check_fit, check_gaussians, check_raster
+from wm.splat.rasterizer.checks import check_gaussians, check_raster
 from wm.splat.rasterizer.projection import DEFAULTS
 from wm.types import Gaussians
 

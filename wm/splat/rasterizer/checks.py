@@ -1,11 +1,10 @@
-"""What is wrong with the arguments of a render or a fit, said once and clearly: shapes and dtypes when traced, values on request.
+"""What is wrong with the arguments of a render, said once and clearly: shapes and dtypes when traced, values on request.
 
 Shapes and dtypes are known while tracing, so checking them costs nothing in a compiled program. Values are looked at on the host
 where they are there, and inside jit by `jax.experimental.checkify`.
 """
 
-import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
@@ -15,7 +14,8 @@ import numpy as np
 from jax.core import Tracer
 from jax.experimental import checkify
 
-from wm.schema import COMPOSITORS, PLANNERS, FitSettings, RasterSettings
+from wm.bounds import check_settings
+from wm.schema import RasterSettings
 from wm.types import Camera, Gaussians
 
 DEGREES = {1: 0, 4: 1, 9: 2, 16: 3}
@@ -23,31 +23,6 @@ DEGREES = {1: 0, 4: 1, 9: 2, 16: 3}
 
 _SHAPES = {"means": ("n", 3), "quats": ("n", 4), "log_scales": ("n", 3), "opacity_logits": ("n",), "sh": ("n", "k", 3)}
 _CAMERA = {"T_cam_world": (4, 4), "focal": (2,), "principal": (2,)}
-
-_RASTER = {
-    "blur": "[0, inf)",
-    "transmittance_min": "[0, 1)",
-    "near": "(0, inf)",
-    "frustum_margin": "[1, inf)",
-    **dict.fromkeys(("tile", "chunk", "block"), "[1, inf)"),
-}
-"""The intervals of the rasterizer's constants; those that the schema has as integers are integers."""
-
-_FIT = {
-    **dict.fromkeys(("spacing", "detail_spacing"), "(0, inf)"),
-    "opacity": "(0, 1)",
-    **dict.fromkeys(("batch", "rounds"), "[1, inf)"),
-    **dict.fromkeys(("steps", "refine_every", "curve_points"), "[0, inf)"),
-    "ssim_weight": "[0, 1]",
-    **dict.fromkeys(("normal_weight", "depth_weight"), "[0, inf)"),
-    **dict.fromkeys(("lr_means", "lr_quats", "lr_scales", "lr_opacities", "lr_sh", "lr_exposure"), "[0, inf)"),
-    "lr_final": "(0, inf)",
-    "refine_share": "[0, 1]",
-    "refine_spare": "[0, inf)",
-    "refine_dead": "(0, 1)",
-    "sh_degree": "[0, 3]",
-}
-"""The same of the numbers of a fit."""
 
 
 def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> None:
@@ -79,27 +54,19 @@ def check_gaussians(gaussians: Gaussians, name: str = "gaussians") -> None:
 
 
 def check_raster(settings: RasterSettings) -> None:
-    """Raises ValueError where a constant of the rasterizer has no meaning, or none on this machine."""
-    _check_numbers("settings", settings, _RASTER)
-    if not 1e-30 <= settings.alpha_min < settings.alpha_max <= 1:
+    """Raises ValueError where a constant of the rasterizer is outside its bounds, or has no meaning on this machine."""
+    check_settings("settings", settings)
+    if settings.alpha_min >= settings.alpha_max:
         raise ValueError(
             f"settings.alpha_min {settings.alpha_min!r} and alpha_max {settings.alpha_max!r} are out of order; "
-            "1e-30 <= alpha_min < alpha_max <= 1 would be right"
+            "alpha_min < alpha_max would be right"
         )
-    for name, known in (("compositor", COMPOSITORS), ("planner", PLANNERS)):
-        if getattr(settings, name) not in known:
-            raise ValueError(f"settings.{name} {getattr(settings, name)!r} is unknown; one of {', '.join(known)} would be right")
     if settings.compositor == "kernels" and jax.default_backend() != "gpu":
         raise ValueError(
             "settings.compositor 'kernels' needs an NVIDIA GPU and JAX sees none; auto, loops or interpreted would be right"
         )
     if settings.compositor in ("kernels", "interpreted") and settings.tile.bit_count() != 1:
         raise ValueError(f"settings.tile {settings.tile} does not suit kernels; a power of two would be right")
-
-
-def check_fit(settings: FitSettings) -> None:
-    """Raises ValueError naming the number of a fit that has no meaning."""
-    _check_numbers("fit", settings, _FIT)
 
 
 def check_background(background: Any, camera: Camera) -> None:
@@ -155,18 +122,6 @@ def _require(is_good: Callable, name: str, x: Any, wanted: str) -> None:
         checkify.check(rows.all(), f"{name}[{{row}}] is bad; {wanted} would be right", row=first)
     elif not rows.all():
         raise ValueError(f"{name}[{first}] is {x[first]}; {wanted} would be right")
-
-
-def _check_numbers(record: str, settings: Any, intervals: Mapping[str, str]) -> None:
-    kinds = {field.name: field.type for field in dataclasses.fields(settings)}
-    for name, interval in intervals.items():
-        value, whole = getattr(settings, name), kinds[name] is int
-        low, high = map(float, interval[1:-1].split(","))
-        above = low <= value if interval[0] == "[" else low < value
-        below = value <= high if interval[-1] == "]" else value < high
-        if not (above and below) or (whole and not isinstance(value, int)):
-            kind = "an integer" if whole else "a number"
-            raise ValueError(f"{record}.{name} is {value!r}; {kind} in {interval} would be right")
 
 
 def _check_leaf(name: str, x: Any, shape: tuple) -> None:

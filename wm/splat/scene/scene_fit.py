@@ -18,6 +18,7 @@ import jax
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.optimization.batch import Device
 from wm.splat.optimization.checkpoint import from_arrays, to_arrays
+from wm.splat.optimization.checks import check_fit
 from wm.splat.optimization.curve import FitPoint
 from wm.splat.optimization.fitting import Progress, seed_of
 from wm.splat.optimization.padding import Capacity, pad_gaussians
@@ -25,7 +26,7 @@ from wm.splat.optimization.room_fit import Interrupted
 from wm.splat.optimization.room_state import RoomState, initial_state
 from wm.splat.optimization.step import raster_for
 from wm.splat.optimization.training import TrainingView
-from wm.splat.rasterizer.checks import check_fit, check_raster
+from wm.splat.rasterizer.checks import check_raster
 from wm.splat.rasterizer.projection import DEFAULTS
 from wm.splat.scene.room_task import Here, Place, RoomTask
 from wm.splat.scene.room_worker import RoomWorker
