@@ -5,4 +5,5 @@
     segments      segments made tidy
     sightings     which segments of several images show one thing
     unlit         surface colours without the room's light
+    world_mesh    a mesh of a model as a reconstruction
 """
