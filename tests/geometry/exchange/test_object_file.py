@@ -332,6 +332,18 @@ def test_a_missing_texture_or_material_file_is_an_error_and_not_a_grey_object(tm
         load_object(tmp_path / "a.obj", label="thing", room=0)
 
 
+def test_gltf_and_the_files_beside_it_are_read_or_missed_by_name(tmp_path):
+    image = np.arange(4 * 4 * 3, dtype=np.uint8).reshape(4, 4, 3)
+    for name, data in quads(SQUARE, image).scene().export(file_type="gltf").items():
+        (tmp_path / name).write_bytes(data)
+    found = load_object(tmp_path / "model.gltf", label="screen", room=0)
+    np.testing.assert_array_equal(found.texture.image, image)
+    buffer = next(tmp_path.glob("*.bin"))
+    buffer.unlink()
+    with pytest.raises(MeshError, match=f"model.gltf refers to {buffer.name}"):
+        load_object(tmp_path / "model.gltf", label="screen", room=0)
+
+
 def test_obj_materials_are_slots_that_glow_as_they_say(tmp_path):
     (tmp_path / "a.mtl").write_text("newmtl wood\nKd 0.6 0.4 0.2\nnewmtl bulb\nKd 0.8 0.8 0.8\nKe 0.8 0.8 0.8\n")
     faces = "usemtl wood\nf 1 2 3 4\nusemtl bulb\nf 1 3 5\n"

@@ -60,11 +60,16 @@ def read_parts(path: Path) -> list[Part]:
             scene = trimesh.load_scene(stream, file_type=path.suffix[1:].lower(), resolver=files, process=False)
             placed = [(scene.geometry[name], T) for T, name in map(scene.graph.get, scene.graph.nodes_geometry)]
         except Exception as error:  # a parser that is handed anything raises anything
+            _check_files(files.missing, path)
             raise MeshError(f"{path} cannot be read as a mesh: {type(error).__name__}: {error}") from error
-    if files.missing:
-        raise MeshError(f"{path} refers to {', '.join(files.missing)}, which is not in {path.parent} or its folders")
+    _check_files(files.missing, path)
     meshes = [(mesh, T) for mesh, T in placed if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
     return [_moved(_part(mesh, header, path), np.asarray(T, np.float64)) for mesh, T in meshes]
+
+
+def _check_files(missing: list[str], path: Path) -> None:
+    if missing:
+        raise MeshError(f"{path} refers to {', '.join(missing)}, which is not in {path.parent} or its folders")
 
 
 def _files_beside(path: Path) -> Any:
