@@ -238,7 +238,7 @@ def test_interrupted_by_a_signal_it_waits_for_no_thread(tmp_path):
 
 @pytest.mark.parametrize(("statement", "loaded"), [("import wm", "[]"), ("import wm.pipeline", "['jax', 'matplotlib']")])
 def test_what_importing_loads(statement, loaded):
-    heavy = {"jax", "hydra", "embreex", "matplotlib", "torch", "diffusers", "anthropic", "openai", "google.genai"}
+    heavy = {"jax", "hydra", "embreex", "matplotlib", "trimesh", "torch", "diffusers", "anthropic", "openai", "google.genai"}
     code = f"import sys; {statement}; print(sorted(set(sys.modules) & {heavy!r}))"
     env = os.environ | {"PYTHONPATH": str(Path(run.__file__).parents[1])}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=env, check=True)

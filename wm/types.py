@@ -65,6 +65,13 @@ class Mesh:
     face_kind: np.ndarray  # [f] int32, SurfaceKind
     face_object: np.ndarray  # [f] int32, index into the scene's objects, OUTSIDE for structure
 
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Trimesh` with the same vertices and faces and `face_attributes` room, kind and object."""
+        import trimesh
+
+        labels: dict[str, Any] = {"room": self.face_room, "kind": self.face_kind, "object": self.face_object}
+        return trimesh.Trimesh(self.vertices, self.faces, face_attributes=labels, process=False)
+
 
 @record
 class GBuffer:

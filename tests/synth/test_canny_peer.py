@@ -1,4 +1,4 @@
-"""Depth edges against scikit-image's Canny: another implementation, the same thresholds, edges at the same places."""
+"""Depth edges against scikit-image's Canny: another implementation, the same thresholds, edges at about the same places."""
 
 import numpy as np
 from scipy.ndimage import binary_dilation

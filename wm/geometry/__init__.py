@@ -6,6 +6,9 @@ from wm.geometry.cameras.views import place_cameras as place_cameras
 from wm.geometry.cameras.visibility import Coverage as Coverage
 from wm.geometry.cameras.visibility import coverage as coverage
 from wm.geometry.cameras.walk import walkthrough as walkthrough
+from wm.geometry.exchange.mesh_error import MeshError as MeshError
+from wm.geometry.exchange.object_file import load_object as load_object
+from wm.geometry.exchange.trimeshes import object_to_trimesh as object_to_trimesh
 from wm.geometry.mesh.glb import GlbNode as GlbNode
 from wm.geometry.mesh.glb import object_nodes as object_nodes
 from wm.geometry.mesh.glb import save_glb as save_glb

@@ -4,11 +4,16 @@ Source: J. Canny, "A Computational Approach to Edge Detection", 1986, in the for
 (3 x 3 Sobel on 8 bits with replicated borders, magnitude |gx| + |gy|, direction by quadrants with tan 22.5 degrees in 15-bit
 fixed point, 8-connected hysteresis), which is what the paper's thresholds are for. Written from that definition; OpenCV is not
 needed.
+
+scikit-image's `canny` scales the gradient, measures its magnitude and interpolates differently: at the same thresholds it has the
+same pixels in none of 128 views of two scenes, and an edge within 10 pixels of 92% of these edges on average, of 56% in the worst
+view, which would move every recall that is held to `min_recall`. Its `apply_hysteresis_threshold` joins pixels by their sides
+only, where OpenCV joins corners too. Measured by experiments/library_peers. Its `label` is the same to the pixel, and used.
 """
 
 import numpy as np
 from jaxtyping import Bool, Float, UInt8
-from scipy import ndimage
+from skimage.measure import label
 
 _TAN_22 = 13573  # tan(22.5 degrees) * 2^15, rounded
 
@@ -46,11 +51,10 @@ def canny(image: UInt8[np.ndarray, "h w"], *, low: float, high: float) -> Bool[n
     gx, gy = _sobel(image)
     magnitude = np.abs(gx) + np.abs(gy)
     candidates = (magnitude > np.floor(255 * low)) & _is_ridge(magnitude, gx, gy)
-    label = np.empty(candidates.shape, np.int32)
-    ndimage.label(candidates, structure=np.ones((3, 3), int), output=label)
-    kept = np.zeros(int(label.max()) + 1, bool)
-    kept[label[candidates & (magnitude > np.floor(255 * high))]] = True
-    return kept[label]
+    lines = np.asarray(label(candidates, connectivity=2), np.int32)
+    kept = np.zeros(int(lines.max()) + 1, bool)
+    kept[lines[candidates & (magnitude > np.floor(255 * high))]] = True
+    return kept[lines]
 
 
 def _sobel(image: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

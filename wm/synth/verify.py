@@ -97,7 +97,11 @@ def dilation_radius(settings: VerifySettings, width: int) -> int:
 
 
 def dilate(edges: Bool[np.ndarray, "h w"], radius: int) -> Bool[np.ndarray, "h w"]:
-    """Pixels whose centre is within `radius` of an edge pixel's centre: a disk stamped on each of the (few) edge pixels."""
+    """Pixels whose centre is within `radius` of an edge pixel's centre: a disk stamped on each of the (few) edge pixels.
+
+    scikit-image's `isotropic_dilation` is the same where there is an edge at all, and sets pixels of an image without one
+    (experiments/library_peers).
+    """
     height, width = edges.shape
     wide = width + 2 * radius
     stamped = np.zeros((height + 2 * radius) * wide, bool)

@@ -4,6 +4,10 @@ glTF is y-up and we are z-up: (x, y, z) becomes (x, z, -y). Colours are sRGB her
 sRGB in both, embedded as PNG, sampled with CLAMP_TO_EDGE so that charts do not bleed around the atlas. Normals are left out:
 a reader then shades flat, as the specification asks. The rooms' textures carry their light (they are painted views), so their
 nodes are unlit (KHR_materials_unlit); those of objects are colours of surfaces, and lit.
+
+trimesh reads meshes for us (wm.geometry.exchange) and does not write these files: its exporter (5.2) has no unlit material, no
+sampler and no strength of emission (it writes a factor of 3 where the specification allows 1), puts one primitive in a mesh, and
+leaves z up. Measured by experiments/library_peers.
 Source: Khronos, glTF 2.0 specification, sections 3.6-3.9 and 4.
 """
 

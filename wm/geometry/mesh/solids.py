@@ -1,4 +1,7 @@
-"""Solids with a label on every plane: what the structure is carved from, and with."""
+"""Solids with a label on every plane: what the structure is carved from, and with.
+
+trimesh's extrusions and booleans have no place for a label that survives a cut; manifold3d, which trimesh calls too, has one.
+"""
 
 import dataclasses
 from collections.abc import Sequence

@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 import shapely
-from scipy import ndimage
 from shapely.geometry.base import BaseGeometry
+from skimage.measure import label
 
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.plan.site import Site
@@ -79,8 +79,7 @@ def _reach_of(site: Site, blocked: BaseGeometry) -> list[frozenset[int]]:
     gx, gy = np.meshgrid(np.arange(x0, x1, _CELL), np.arange(y0, y1, _CELL))
     area = site.polygon.buffer(-_BODY + 0.02).difference(blocked.buffer(-0.02))
     shapely.prepare(area)
-    labels = np.zeros(gx.shape, np.int32)
-    ndimage.label(shapely.contains_xy(area, gx, gy), np.ones((3, 3)), output=labels)
+    labels = np.asarray(label(shapely.contains_xy(area, gx, gy), connectivity=2), np.int32)
     near = [set(np.unique(labels[np.hypot(gx - x, gy - y) < 0.35]).tolist()) - {0} for x, y in site.probes]
     return [frozenset(j for j, other in enumerate(near) if mine & other) for mine in near]
 

@@ -10,10 +10,10 @@ import dataclasses
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-import scipy.ndimage
 import shapely
 from jaxtyping import Bool, Float, Int
 from shapely.geometry.base import BaseGeometry
+from skimage.measure import label
 
 from wm.geometry.plan.footprint import Portal, interior_polygon, portals
 from wm.geometry.plan.records import FloorPlan
@@ -127,8 +127,7 @@ def _passage(portal: Portal) -> shapely.Polygon:
 
 def _components(free: Bool[np.ndarray, "gy gx"]) -> tuple[Int[np.ndarray, "gy gx"], float]:
     """4-connected components by size, and the largest one's share of the free cells."""
-    labels = np.zeros(free.shape, np.int32)
-    scipy.ndimage.label(free, output=labels)
+    labels = np.asarray(label(free, connectivity=1), np.int32)
     count = int(labels.max(initial=0))
     sizes = np.bincount(labels.reshape(-1), minlength=count + 1)[1:]
     rank = np.zeros(count + 1, np.int32)

@@ -5,6 +5,7 @@
     accumulation   accumulate: an image projected into the atlas (a texel's colour is decided here)
     sampling       sample_atlas: the atlas seen from a camera
     packing        rectangles side by side in one image
+    image_sheet    several images as one
     chart_texture  an object's charts as one image
     atlas_export   the atlas as textured meshes
 """

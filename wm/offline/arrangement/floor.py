@@ -12,8 +12,8 @@ import dataclasses
 
 import numpy as np
 import shapely
-from scipy import ndimage
 from shapely.geometry.base import BaseGeometry
+from skimage.measure import label
 
 from wm.geometry.placement.navigation import BODY
 from wm.geometry.plan.site import Site
@@ -103,8 +103,7 @@ class BareFloor:
 
 def parts_of(free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(label of each point's 4-connected part, 0 where not free; the parts' sizes from label 1 on)."""
-    labels = np.zeros(free.shape, np.int32)
-    ndimage.label(free, output=labels)
+    labels = np.asarray(label(free, connectivity=1), np.int32)
     return labels, np.bincount(labels.ravel())[1:]
 
 

@@ -2,6 +2,10 @@
 
 All lengths are metres. Every function returns a closed, outward-wound Solid (its signed volume is positive), so that parts
 can be put together without a boolean: they may interpenetrate, but never share a plane.
+
+trimesh.creation has two of them: `revolve` agrees with `lathe` where the profile begins and ends on the axis (144 triangles, the
+same volume) and leaves every other profile open, and `extrude_polygon` agrees with `extrude`. Both number vertices differently,
+which would change the bytes of every scene and add no shape, so they are not used (experiments/library_peers).
 """
 
 import dataclasses

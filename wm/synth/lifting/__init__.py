@@ -6,4 +6,5 @@
     observations  which segments of several images are observations of one instance, and the points that they show
     vocabulary    what labels name, and how large such things usually are
     unlit         colours of surfaces, separated from the room's light
+    world_mesh    a mesh of a model as a reconstruction
 """

@@ -7,6 +7,7 @@ Source: WorldMesh, supplement, "Object Segmentation"; the rule about what lies b
 import numpy as np
 from jaxtyping import Float
 from scipy import ndimage
+from skimage.measure import label
 
 from wm.geometry.placement.support import is_plural, is_structure
 from wm.synth.backends import Segment
@@ -61,8 +62,7 @@ def _split(segment: Segment, depth: np.ndarray, least: float) -> list[Segment]:
     """Connected parts of a segment; those that something nearer may separate stay together, and all of a plural (curtains)."""
     if is_plural(segment.label):
         return [segment] if segment.mask.sum() >= least else []
-    labels = np.zeros(segment.mask.shape, np.int32)
-    ndimage.label(segment.mask, np.ones((3, 3)), output=labels)
+    labels = np.asarray(label(segment.mask, connectivity=2), np.int32)
     sizes = np.bincount(labels.ravel())[1:]
     order = [int(k) + 1 for k in np.argsort(-sizes, kind="stable") if sizes[k] >= 0.1 * least]
     groups: list[np.ndarray] = []
