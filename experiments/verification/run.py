@@ -17,7 +17,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from wm.geometry import assemble_scene, build_ray_scene, cast, place_cameras
-from wm.geometry.plan.footprint import portals
+from wm.geometry.plan.openings import portals
 from wm.offline.image.violations import KINDS, PLAIN, Violation, draw_violation, violation
 from wm.offline.world.edit import edited_mesh
 from wm.run import load_config, options

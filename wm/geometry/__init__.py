@@ -16,9 +16,7 @@ from wm.geometry.mesh.scene_mesh import object_boxes as object_boxes
 from wm.geometry.mesh.structure import build_structure as build_structure
 from wm.geometry.placement.navigation import Navigability as Navigability
 from wm.geometry.placement.navigation import navigability as navigability
-from wm.geometry.plan.footprint import Portal as Portal
 from wm.geometry.plan.footprint import interior_polygon as interior_polygon
-from wm.geometry.plan.footprint import portals as portals
 from wm.geometry.plan.loading import FloorPlan as FloorPlan
 from wm.geometry.plan.loading import Opening as Opening
 from wm.geometry.plan.loading import PlanError as PlanError
@@ -27,6 +25,8 @@ from wm.geometry.plan.loading import Violation as Violation
 from wm.geometry.plan.loading import load_plan as load_plan
 from wm.geometry.plan.loading import parse_plan as parse_plan
 from wm.geometry.plan.loading import plan_to_json as plan_to_json
+from wm.geometry.plan.openings import portals as portals
+from wm.geometry.plan.portal import Portal as Portal
 from wm.geometry.rays.pinhole import camera_center as camera_center
 from wm.geometry.rays.pinhole import camera_quat as camera_quat
 from wm.geometry.rays.pinhole import camera_rays as camera_rays

@@ -14,7 +14,8 @@ from wm.geometry.cameras.sightlines import visible_rooms
 from wm.geometry.cameras.visibility import coverage, reachable_points
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.mesh.structure import build_structure
-from wm.geometry.plan.footprint import interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
 from wm.geometry.rays.pinhole import camera_center, make_camera, unproject_depth
 from wm.geometry.rays.raycast import build_ray_scene, cast
 from wm.geometry.rays.surface_points import framed, in_sight, some_points, surface_points, times_seen

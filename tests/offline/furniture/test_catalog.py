@@ -4,9 +4,9 @@ import functools
 
 import numpy as np
 import pytest
-from wm.offline.furniture.pictures import SUBJECTS, subject
 
 from wm.offline.furniture import KINDS, make_piece
+from wm.offline.furniture.pictures import SUBJECTS, subject
 from wm.offline.style.finish import SLOTS
 from wm.offline.style.theme import style_of
 

@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 
 from wm.geometry.cameras.air import RoomAir, free, room_air
 from wm.geometry.mesh.scene_mesh import face_crosses
-from wm.geometry.plan.footprint import portals
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.raycast import RayScene
 from wm.geometry.rays.surface_points import SurfacePoints, in_sight, surface_points

@@ -14,7 +14,7 @@ import shapely
 
 from wm.geometry.cameras.air import RoomAir, candidates, free, openness, room_air
 from wm.geometry.cameras.views import depth_wanted, door_camera, make_view_camera
-from wm.geometry.plan.footprint import portals
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import camera_center, camera_rotation
 from wm.geometry.rays.raycast import RayScene, occluded, ray_scene

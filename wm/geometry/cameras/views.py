@@ -20,7 +20,8 @@ from jaxtyping import Float
 from wm.geometry.cameras.aim import Aims, choose_aims
 from wm.geometry.cameras.air import RoomAir, candidates, free, look_point, openness, room_air
 from wm.geometry.cameras.stations import short_sides, walk_line
-from wm.geometry.plan.footprint import Portal, portals
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import camera_center, camera_rotation, make_camera
 from wm.geometry.rays.raycast import RayScene, ray_scene

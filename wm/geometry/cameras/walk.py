@@ -20,7 +20,8 @@ from shapely.geometry.base import BaseGeometry
 
 from wm.errors import InputError
 from wm.geometry.placement.navigation import body_floor, cells_inside, object_corners, walkable_floor
-from wm.geometry.plan.footprint import interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import make_camera
 from wm.schema import CameraSettings

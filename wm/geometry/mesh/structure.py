@@ -20,7 +20,9 @@ from shapely.geometry import Polygon
 
 from wm.geometry.mesh.slivers import flip_slivers
 from wm.geometry.mesh.solids import Solid, carve, polygon_rings, prism, tunnel
-from wm.geometry.plan.footprint import Portal, interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.plan.walls import SHARED, room_polygons
 from wm.types import OUTSIDE, Mesh, SurfaceKind

@@ -15,7 +15,9 @@ import shapely
 from jaxtyping import Bool, Float, Int
 from shapely.geometry.base import BaseGeometry
 
-from wm.geometry.plan.footprint import Portal, interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
 from wm.schema import NavigationSettings
 from wm.types import Mesh, SceneObject

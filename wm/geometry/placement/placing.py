@@ -185,7 +185,7 @@ def _before_opening(box: UprightBox, site: Site, wall: int, along: float, *, cov
     """Whether a box on a wall hangs before a doorway, or before a window that it should not cover."""
     low, high = along - box.width / 2, along + box.width / 2
     return any(
-        gap.wall == wall and gap.low < high and gap.high > low and gap.sill < box.top and gap.head > box.z
-        for gap in site.gaps
-        if not (covers and gap.kind == "window")
+        k == wall and opening.low < high and opening.high > low and opening.sill < box.top and opening.head > box.z
+        for k, opening in site.openings
+        if not (covers and opening.kind == "window")
     )

@@ -7,6 +7,7 @@ STRtree, so that the cost is linear in the number of rooms.
 """
 
 import dataclasses
+import functools
 
 import numpy as np
 import shapely
@@ -68,8 +69,12 @@ def room_polygons(plan: FloorPlan) -> np.ndarray:
     return np.array([shapely.Polygon(room.polygon) for room in plan.rooms], dtype=object)
 
 
+@functools.lru_cache(maxsize=4)
 def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
-    """The walls of every room, counter-clockwise, with the rooms behind them. Polygons must be simple."""
+    """The walls of every room, counter-clockwise, with the rooms behind them. Polygons must be simple.
+
+    They are computed once per plan: plans are read-only and compared by identity.
+    """
     rings = [straight_ring(room.polygon) for room in plan.rooms]
     room = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
     start = np.concatenate(rings)

@@ -67,17 +67,16 @@ def curtain_pairs(job: Job) -> int:
     site = job.layout.site
     long = job.rng.random() < 0.6
     hung = 0
-    for gap in site.gaps:
-        if gap.kind != "window" or gap.head - gap.sill < 0.5:
+    for k, window in site.openings:
+        if window.kind != "window" or window.head - window.sill < 0.5:
             continue
-        top = min(gap.head + 0.16, site.ceiling - 0.04)
-        for overhang, low in ((0.3, 0.02 if long else gap.sill - 0.12), (0.18, gap.sill - 0.12)):
+        top = min(window.head + 0.16, site.ceiling - 0.04)
+        for overhang, low in ((0.3, 0.02 if long else window.sill - 0.12), (0.18, window.sill - 0.12)):
             low = max(low, 0.02)
-            span = (gap.low - overhang, gap.high + overhang)
-            if span[0] < 0.0 or span[1] > float(site.lengths[gap.wall]):
+            span = (window.low - overhang, window.high + overhang)
+            if span[0] < 0.0 or span[1] > float(site.lengths[k]):
                 continue
             piece = job.piece("curtains", (span[1] - span[0] - 0.024, 0.09, top - low))
-            k = gap.wall
             middle = 0.5 * (span[0] + span[1])
             x, y = (site.starts[k] + middle * site.directions[k] + (0.005 + float(piece.size[1]) / 2) * site.normals[k]).tolist()
             if job.layout.try_at(piece, x, y, math.atan2(float(site.normals[k, 0]), -float(site.normals[k, 1])), z=low):

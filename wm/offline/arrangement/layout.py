@@ -175,8 +175,9 @@ class Layout:
     def over_opening(self, wall: int, low: float, high: float, z: float, top: float) -> bool:
         """Whether a thing on a wall's stretch would stand before a window's glass or a doorway."""
         return any(
-            gap.wall == wall and gap.low - 0.06 < high and gap.high + 0.06 > low and gap.sill - 0.02 < top and gap.head + 0.02 > z
-            for gap in self.site.gaps
+            opening.low - 0.06 < high and opening.high + 0.06 > low and opening.sill - 0.02 < top and opening.head + 0.02 > z
+            for k, opening in self.site.openings
+            if k == wall
         )
 
     def on_floor(

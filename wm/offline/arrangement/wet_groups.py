@@ -30,7 +30,7 @@ def cooking(job: Job) -> Placed | None:
 
 def stretches(site, wall: int) -> list[tuple[float, float]]:
     """Parts of a wall between its doors and passages, longest first; windows do not interrupt low units."""
-    cuts = sorted((gap.low - 0.08, gap.high + 0.08) for gap in site.gaps if gap.wall == wall and gap.kind != "window")
+    cuts = sorted((way.low - 0.08, way.high + 0.08) for k, way in site.openings if k == wall and way.kind != "window")
     edges, at = [], 0.0
     for low, high in cuts:
         edges.append((at, low))

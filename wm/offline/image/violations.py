@@ -12,7 +12,8 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
-from wm.geometry.plan.footprint import Portal, portals
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.site import room_site
 from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.offline.world.edit import Edit

@@ -13,7 +13,7 @@ import numpy as np
 
 from wm.offline.language.building import Building, building_of, draw
 from wm.offline.language.massing import draft
-from wm.offline.language.openings import Hole, place_openings
+from wm.offline.language.openings import Hole, draw_openings
 from wm.offline.language.programme import CIRCULATION, Space, kind_of, read_programme
 
 WALL_THICKNESS = 0.15
@@ -35,7 +35,7 @@ class Grammar:
             spaces = read_programme(rooms, building, rng)
             spaces, polygons = draft(spaces, building, rng)
             ceilings = _ceilings(spaces, building, rng)
-        holes = place_openings(polygons, spaces, ceilings, building, rng)
+        holes = draw_openings(polygons, spaces, ceilings, building, rng)
         return _as_json(spaces, polygons, ceilings, holes)
 
 

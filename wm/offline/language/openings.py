@@ -36,7 +36,11 @@ _JOINED = 0.7  # probability that such a pair is
 
 @dataclasses.dataclass(frozen=True)
 class Hole:
-    """An opening from `low` to `high` along its side's line."""
+    """An opening that the grammar has drawn, from `low` to `high` along its side's line.
+
+    It stays apart from the plan's `Opening` (wm.geometry.plan.records) because it is made before there is a plan: it lies on a
+    side of the massing, in whole centimetres. grammar.py writes it as an opening of the plan's JSON.
+    """
 
     kind: str
     side: Side
@@ -47,7 +51,7 @@ class Hole:
     sill: int
 
 
-def place_openings(
+def draw_openings(
     polygons: Sequence[Int[np.ndarray, "_ 2"]],
     spaces: Sequence[Space],
     ceilings: Sequence[int],

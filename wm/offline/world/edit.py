@@ -10,7 +10,9 @@ import numpy as np
 from jaxtyping import Int
 
 from wm.geometry.mesh.scene_mesh import BOX_CORNERS, BOX_FACES, face_crosses
-from wm.geometry.plan.footprint import FloorPlan, Portal, portals
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
+from wm.geometry.plan.records import FloorPlan
 from wm.types import OUTSIDE, Mesh, SurfaceKind
 
 LEAF = 0.04

@@ -5,7 +5,10 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from wm.geometry.plan import footprint
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.records import FloorPlan
+from wm.geometry.plan.site import WallOpening, wall_opening
 from wm.geometry.rays.raycast import RayScene
 from wm.offline.arrangement.room_type import room_type
 from wm.offline.style.finish import Style
@@ -29,7 +32,7 @@ from wm.offline.world.light import (
 from wm.offline.world.light.facets import Facets
 from wm.offline.world.pieces import SPECULAR, Pieces, build_pieces, mean_albedo
 from wm.offline.world.pyramid import Pyramid, build_pyramid
-from wm.offline.world.surfaces import Chart, Gap, Interior, Sheet, dress
+from wm.offline.world.surfaces import Chart, Interior, Sheet, dress
 from wm.offline.world.tone import tone
 from wm.types import OUTSIDE, SceneObject, SurfaceKind
 
@@ -52,7 +55,7 @@ class BakedRoom:
 
 
 def bake_room(
-    scene: RayScene, plan: footprint.FloorPlan, room: int, objects: tuple[SceneObject, ...], style: Style,
+    scene: RayScene, plan: FloorPlan, room: int, objects: tuple[SceneObject, ...], style: Style,
     *, sun: np.ndarray, seed: int, settings: BakeSettings,
 ) -> BakedRoom:  # fmt: skip
     """Dress and light one room of a scene whose mesh is `assemble_scene(structure, objects)`."""
@@ -60,7 +63,7 @@ def bake_room(
     charts = room_charts(scene.mesh, room, settings.cell)
     spans = [_chart(charts, k, settings.cell / PER_CELL) for k in range(len(charts.atlas.chart_start))]
     with ThreadPoolExecutor(2) as pool:
-        sheets = list(pool.map(lambda chart: dress(chart, _gaps(plan, room, chart), interior), spans))
+        sheets = list(pool.map(lambda chart: dress(chart, _openings(plan, room, chart), interior), spans))
     pieces, facets, facet_faces = _objects(scene, room, objects, style, interior.seed, settings)
     probes = build_probes(
         facets, exposed(scene, facets.position, facets.normal), spacing=settings.probe_spacing, budget=settings.probes
@@ -109,12 +112,12 @@ def bake_settings(texel_size: float) -> BakeSettings:
     )
 
 
-def _interior(plan: footprint.FloorPlan, room: int, style: Style, seed: int) -> Interior:
+def _interior(plan: FloorPlan, room: int, style: Style, seed: int) -> Interior:
     kind = room_type(plan.rooms[room].name)
     return Interior(
         name=plan.rooms[room].name,
         kind=kind,
-        polygon=np.asarray(footprint.interior_polygon(plan, room).exterior.coords)[:-1],
+        polygon=np.asarray(interior_polygon(plan, room).exterior.coords)[:-1],
         height=plan.rooms[room].ceiling_height,
         style=style,
         surfaces=style.surfaces(kind),
@@ -136,19 +139,20 @@ def _chart(charts: RoomCharts, number: int, texel: float) -> Chart:
     )
 
 
-def _gaps(plan: footprint.FloorPlan, room: int, chart: Chart) -> tuple[Gap, ...]:
+def _openings(plan: FloorPlan, room: int, chart: Chart) -> tuple[WallOpening, ...]:
     """The openings of a room that lie in a wall chart's plane, in its own metres."""
     if chart.kind != SurfaceKind.WALL:
         return ()
-    gaps = []
-    for portal in footprint.portals(plan):
+    openings = []
+    for portal in portals(plan):
         if room not in portal.rooms:
             continue
-        ends = portal.ends - chart.origin[:2]
-        off, along = ends @ chart.normal[:2], np.sort(ends @ chart.u[:2])
+        off = (portal.ends - chart.origin[:2]) @ chart.normal[:2]
         if np.ptp(off) < 0.02 and -0.5 < off.mean() < 0.05:
-            gaps.append(Gap(kind=portal.kind, left=float(along[0]), right=float(along[1]), sill=portal.sill, head=portal.head))
-    return tuple(gaps)
+            openings.append(
+                wall_opening(portal.kind, portal.ends, portal.sill, portal.head, start=chart.origin[:2], direction=chart.u[:2])
+            )
+    return tuple(openings)
 
 
 def _objects(

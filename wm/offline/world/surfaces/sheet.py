@@ -31,17 +31,6 @@ class Chart:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Gap:
-    """An opening as a wall sees it: a rectangle in metres along the chart's u and above the floor."""
-
-    kind: str  # door | passage | window
-    left: float
-    right: float
-    sill: float
-    head: float
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
 class Interior:
     """What dressing needs to know of a room."""
 
