@@ -8,7 +8,7 @@ from wm.offline.style.families import FAMILIES
 from wm.offline.style.theme import style_of
 from wm.offline.world.surfaces import Chart, Interior, dress, grid
 from wm.offline.world.surfaces.frieze import frieze
-from wm.offline.world.surfaces.sheet import lay
+from wm.offline.world.surfaces.texel_sheet import lay
 from wm.types import SurfaceKind
 
 KINDS = [SurfaceKind.WALL, SurfaceKind.FLOOR, SurfaceKind.CEILING, SurfaceKind.REVEAL, SurfaceKind.PANE]

@@ -18,8 +18,8 @@ import numpy as np
 import shapely
 from shapely.geometry import Polygon
 
+from wm.geometry.mesh.labelled_solids import LabelledSolid, carve, polygon_rings, prism, tunnel
 from wm.geometry.mesh.slivers import flip_slivers
-from wm.geometry.mesh.solids import Solid, carve, polygon_rings, prism, tunnel
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.plan.openings import portals
 from wm.geometry.plan.portal import Portal
@@ -90,14 +90,14 @@ def outline(plan: FloorPlan) -> Polygon | shapely.MultiPolygon:
     return shapely.simplify(closed, 1e-7)
 
 
-def _blocks(plan: FloorPlan) -> list[Solid]:
+def _blocks(plan: FloorPlan) -> list[LabelledSolid]:
     top = max(room.ceiling_height for room in plan.rooms) + SLAB
     return [
         prism(polygon_rings(part), -SLAB, top, bottom=_SKIN, top=_SKIN, side=_SKIN) for part in shapely.get_parts(outline(plan))
     ]
 
 
-def _rooms(plan: FloorPlan) -> list[Solid]:
+def _rooms(plan: FloorPlan) -> list[LabelledSolid]:
     solids = []
     for index, room in enumerate(plan.rooms):
         rings = polygon_rings(interior_polygon(plan, index))
@@ -106,14 +106,14 @@ def _rooms(plan: FloorPlan) -> list[Solid]:
     return solids
 
 
-def _openings(plan: FloorPlan) -> list[Solid]:
+def _openings(plan: FloorPlan) -> list[LabelledSolid]:
     solids = []
     for portal in portals(plan):
         solids.extend(_window(portal) if portal.kind == "window" else [_door(portal)])
     return solids
 
 
-def _door(portal: Portal) -> Solid:
+def _door(portal: Portal) -> LabelledSolid:
     """From face to face, and on into the free air of both rooms."""
     floor, reveal = _label(portal.rooms[0], SurfaceKind.FLOOR), _label(portal.rooms[0], SurfaceKind.REVEAL)
     first, last = -portal.half_depths[0], portal.half_depths[1]
@@ -121,7 +121,7 @@ def _door(portal: Portal) -> Solid:
     return tunnel(_sections(portal, steps), bottom=floor, side=reveal, first=reveal, last=reveal)
 
 
-def _window(portal: Portal) -> list[Solid]:
+def _window(portal: Portal) -> list[LabelledSolid]:
     """The recess in the room and the recess outside, with the pane between them."""
     first, last = -portal.half_depths[0], portal.half_depths[1]
     glass = min(PANE, (last - first) / 4) / 2
@@ -149,7 +149,7 @@ def _sections(portal: Portal, steps: list[tuple[float, float]]) -> np.ndarray:
     return np.array(sections)
 
 
-def _check_volume(plan: FloorPlan, vertices, faces, blocks: list[Solid], rooms: list[Solid]) -> None:
+def _check_volume(plan: FloorPlan, vertices, faces, blocks: list[LabelledSolid], rooms: list[LabelledSolid]) -> None:
     """The kernel fails in silence (facts.md), so its volume is compared with the plan's."""
     expected = sum(solid.volume for solid in blocks) - sum(solid.volume for solid in rooms)
     for portal in portals(plan):

@@ -32,8 +32,8 @@ _EMPTY = Mesh(
 
 
 @dataclasses.dataclass(frozen=True)
-class Violation:
-    """A law broken, by what, and how far."""
+class BrokenLaw:
+    """One law that a room breaks, and what breaks it."""
 
     law: str  # interpenetrates | floats | leaves | tilts | blocks
     what: str
@@ -46,23 +46,23 @@ class _Trunk:
     high: float
 
 
-def violations(things: list[SceneObject], site: Site) -> list[Violation]:
+def broken_laws(things: list[SceneObject], site: Site) -> list[BrokenLaw]:
     """Every law that the things of a room break."""
     trunks = [_trunk(thing) for thing in things]
     found = []
     for thing, trunk in zip(things, trunks):
         if not site.polygon.buffer(LIMIT).covers(trunk.hull) or trunk.low < -LIMIT or trunk.high > site.ceiling + LIMIT:
-            found.append(Violation("leaves", thing.label))
+            found.append(BrokenLaw("leaves", thing.label))
         if math.acos(min(max(float(thing.T_world_object[2, 2]), -1.0), 1.0)) > TILT:
-            found.append(Violation("tilts", thing.label))
-    found += [Violation("floats", things[k].label) for k in range(len(things)) if _floats(k, things, trunks, site)]
+            found.append(BrokenLaw("tilts", thing.label))
+    found += [BrokenLaw("floats", things[k].label) for k in range(len(things)) if _floats(k, things, trunks, site)]
     found += [
-        Violation("interpenetrates", f"{things[i].label} and {things[j].label}")
+        BrokenLaw("interpenetrates", f"{things[i].label} and {things[j].label}")
         for i in range(len(things))
         for j in range(i)
         if _penetrate(trunks[i], trunks[j])
     ]
-    return found + [Violation("blocks", f"door {k}") for k in blocked_doors(things, site)]
+    return found + [BrokenLaw("blocks", f"door {k}") for k in blocked_doors(things, site)]
 
 
 def blocked_doors(things: list[SceneObject], site: Site) -> list[int]:

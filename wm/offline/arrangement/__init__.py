@@ -4,5 +4,5 @@
     room_type    what kind of room a name means; programmes, inventory: what stands in it
     groups, wet_groups, hangings, clutter   what is placed together
     layout       where one more piece may stand; floor: what it closes off
-    job          the room being furnished
+    room_arrangement   RoomArrangement: the room being furnished
 """

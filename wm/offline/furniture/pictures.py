@@ -16,7 +16,7 @@ from wm.offline.furniture.outlines import circle, gear
 from wm.offline.furniture.piece import Part, of
 from wm.offline.furniture.solids import Real, box, extrude
 from wm.offline.style.finish import Rgb, Style
-from wm.offline.style.sheet import mix
+from wm.offline.style.style_sheet import mix
 
 LAYER = 0.0012
 """Metres between two layers of paint."""

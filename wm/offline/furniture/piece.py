@@ -51,7 +51,7 @@ Builder = Callable[[Style, np.random.Generator, Size], Model]
 
 
 @dataclasses.dataclass(frozen=True)
-class Kind:
+class FurnitureKind:
     """A kind of furniture: how it is built, where it belongs and how large it may be."""
 
     build: Builder

@@ -16,7 +16,7 @@ from wm.offline.arrangement.inventory import ABSENT, FLAVOUR
 from wm.offline.arrangement.room_type import room_type
 from wm.offline.furniture import KINDS, bath, kitchen, make_piece
 from wm.offline.style.finish import Finish, Rgb, Style, Surfaces
-from wm.offline.style.sheet import mix
+from wm.offline.style.style_sheet import mix
 from wm.offline.style.theme import style_of
 from wm.synth.backends import SceneContext
 from wm.types import SceneObject

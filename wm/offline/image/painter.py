@@ -29,7 +29,7 @@ from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.host import cores
 from wm.offline.image.imagination import SCENE, Imagination, imagined_scene, imagined_style
 from wm.offline.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
-from wm.offline.image.violations import Violation, draw_violation
+from wm.offline.image.violations import ScaffoldViolation, draw_violation
 from wm.offline.world.room import bake_settings
 from wm.offline.world.worker import Recipe, WorkerWorld
 from wm.offline.world.world import Shot, World
@@ -147,7 +147,7 @@ class ProceduralImages:
                 self._scenes[furniture] = imagined_scene(self.scene, which)
             return self._scenes[furniture]
 
-    def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
+    def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> ScaffoldViolation | None:
         rng = np.random.default_rng(_stream(request.seed, 0xBAD))
         objects = request.condition.objects != "none" or request.task == "furnish"
         return draw_violation(self.config, scenery.context, request.view, shot.gbuffer, shot.object, rng, objects=objects)

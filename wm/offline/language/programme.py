@@ -13,7 +13,7 @@ CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private",
 
 
 @dataclasses.dataclass(frozen=True)
-class Kind:
+class RoomKind:
     """A kind of room: floor area range in square metres, zone, and rank from the front of the house (0) to its back."""
 
     name: str  # a sort of wm.synth.room_names: there is one kind for each
@@ -25,26 +25,26 @@ class Kind:
 _KINDS = {
     kind.name: kind
     for kind in (
-        Kind("corridor", (6.0, 14.0), CIRCULATION, 5.0),
-        Kind("hall", (14.0, 24.0), CIRCULATION, 0.0),
-        Kind("great hall", (28.0, 45.0), CIRCULATION, 0.0),
-        Kind("gallery", (18.0, 30.0), CIRCULATION, 1.0),
-        Kind("atrium", (30.0, 48.0), CIRCULATION, 0.0),
-        Kind("living", (22.0, 34.0), PUBLIC, 1.0),
-        Kind("dining", (15.0, 24.0), PUBLIC, 2.0),
-        Kind("kitchen", (12.0, 20.0), PUBLIC, 3.0),
-        Kind("conservatory", (16.0, 28.0), PUBLIC, 2.0),
-        Kind("leisure", (18.0, 28.0), PUBLIC, 4.0),
-        Kind("ballroom", (18.0, 28.0), PUBLIC, 4.0),
-        Kind("library", (18.0, 28.0), PUBLIC, 5.0),
-        Kind("workshop", (16.0, 26.0), PUBLIC, 5.0),
-        Kind("studio", (16.0, 26.0), PUBLIC, 5.0),
-        Kind("study", (10.0, 15.0), PRIVATE, 6.0),
-        Kind("bedroom", (12.0, 20.0), PRIVATE, 7.0),
-        Kind("bathroom", (5.0, 9.0), WET, 8.0),
-        Kind("service", (5.0, 8.0), SERVICE, 3.5),
-        Kind("room", (14.0, 22.0), PUBLIC, 4.0),
-        Kind("other", (14.0, 22.0), PUBLIC, 4.0),
+        RoomKind("corridor", (6.0, 14.0), CIRCULATION, 5.0),
+        RoomKind("hall", (14.0, 24.0), CIRCULATION, 0.0),
+        RoomKind("great hall", (28.0, 45.0), CIRCULATION, 0.0),
+        RoomKind("gallery", (18.0, 30.0), CIRCULATION, 1.0),
+        RoomKind("atrium", (30.0, 48.0), CIRCULATION, 0.0),
+        RoomKind("living", (22.0, 34.0), PUBLIC, 1.0),
+        RoomKind("dining", (15.0, 24.0), PUBLIC, 2.0),
+        RoomKind("kitchen", (12.0, 20.0), PUBLIC, 3.0),
+        RoomKind("conservatory", (16.0, 28.0), PUBLIC, 2.0),
+        RoomKind("leisure", (18.0, 28.0), PUBLIC, 4.0),
+        RoomKind("ballroom", (18.0, 28.0), PUBLIC, 4.0),
+        RoomKind("library", (18.0, 28.0), PUBLIC, 5.0),
+        RoomKind("workshop", (16.0, 26.0), PUBLIC, 5.0),
+        RoomKind("studio", (16.0, 26.0), PUBLIC, 5.0),
+        RoomKind("study", (10.0, 15.0), PRIVATE, 6.0),
+        RoomKind("bedroom", (12.0, 20.0), PRIVATE, 7.0),
+        RoomKind("bathroom", (5.0, 9.0), WET, 8.0),
+        RoomKind("service", (5.0, 8.0), SERVICE, 3.5),
+        RoomKind("room", (14.0, 22.0), PUBLIC, 4.0),
+        RoomKind("other", (14.0, 22.0), PUBLIC, 4.0),
     )
 }
 
@@ -55,11 +55,11 @@ class Space:
 
     id: str
     name: str
-    kind: Kind
+    kind: RoomKind
     area: float  # square metres to aim for
 
 
-def kind_of(room: str) -> Kind:
+def kind_of(room: str) -> RoomKind:
     """The kind a room's name speaks of; a public room of middling size where it speaks of none."""
     return _KINDS[room_sort(room)]
 

@@ -16,7 +16,7 @@ import re
 
 from wm.offline.style.families import FAMILIES
 from wm.offline.style.finish import MATERIALS, SLOTS, Finish, Form, Light, Rgb, Style, Surfaces
-from wm.offline.style.sheet import Sheet, build, mix, rgb
+from wm.offline.style.style_sheet import StyleSheet, build, mix, rgb
 
 __all__ = ["MATERIALS", "SLOTS", "Finish", "Form", "Light", "Rgb", "Style", "Surfaces", "style_of"]
 
@@ -98,7 +98,7 @@ def family_of(words: list[str]) -> str | None:
     return best if votes[best] else None
 
 
-def turned(sheet: Sheet, theme: str) -> Sheet:
+def turned(sheet: StyleSheet, theme: str) -> StyleSheet:
     """The neutral sheet with its textiles and accents turned around the colour wheel by a hash of the theme."""
     digest = hashlib.sha256(" ".join(words_of(theme)).encode()).digest()
     turn = digest[0] / 256
@@ -119,7 +119,7 @@ def code_of(color: Rgb) -> str:
     return "".join(f"{round(min(max(c, 0.0), 1.0) * 255):02x}" for c in color)
 
 
-def tinted(sheet: Sheet, words: list[str]) -> Sheet:
+def tinted(sheet: StyleSheet, words: list[str]) -> StyleSheet:
     """Colour words dye the textiles (the first word) and the accents (the second); "dark wood" and "light wood" the wood.
 
     "white walls" says nothing of the textiles.

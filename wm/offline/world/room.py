@@ -32,7 +32,7 @@ from wm.offline.world.light import (
 from wm.offline.world.light.facets import Facets
 from wm.offline.world.pieces import SPECULAR, Pieces, build_pieces, mean_albedo
 from wm.offline.world.pyramid import Pyramid, build_pyramid
-from wm.offline.world.surfaces import Chart, Interior, Sheet, dress
+from wm.offline.world.surfaces import Chart, Interior, TexelSheet, dress
 from wm.offline.world.tone import tone
 from wm.types import OUTSIDE, SceneObject, SurfaceKind
 
@@ -168,7 +168,7 @@ def _objects(
 
 
 def _light_points(
-    charts: RoomCharts, sheets: list[Sheet], pieces: Pieces, facets: Facets, facet_faces: np.ndarray, probes: Probes
+    charts: RoomCharts, sheets: list[TexelSheet], pieces: Pieces, facets: Facets, facet_faces: np.ndarray, probes: Probes
 ) -> LightPoints:
     atlas = charts.atlas
     texels = len(atlas.inside)
@@ -199,7 +199,7 @@ def _cell_means(image: np.ndarray, shape: np.ndarray) -> np.ndarray:
     return image.reshape(3, rows, PER_CELL, columns, PER_CELL).mean(axis=(2, 4)).reshape(3, -1).T
 
 
-def _shade(charts: RoomCharts, number: int, sheet: Sheet, chart: Chart, baked: list[np.ndarray]) -> np.ndarray:
+def _shade(charts: RoomCharts, number: int, sheet: TexelSheet, chart: Chart, baked: list[np.ndarray]) -> np.ndarray:
     """[h, w, 3] sRGB: the sheet under the baked light, its relief lit from where the light comes."""
     atlas = charts.atlas
     rows, columns = (int(k) for k in atlas.chart_shape[number])

@@ -3,13 +3,13 @@
 from wm.geometry.plan.site import WallOpening
 from wm.offline.world.surfaces.level import ceiling_sheet, floor_sheet
 from wm.offline.world.surfaces.reveal import reveal_sheet
-from wm.offline.world.surfaces.sheet import Chart, Interior, Sheet, grid
+from wm.offline.world.surfaces.texel_sheet import Chart, Interior, TexelSheet, grid
 from wm.offline.world.surfaces.wall import wall_sheet
 from wm.offline.world.surfaces.window import pane_sheet
 from wm.types import SurfaceKind
 
 
-def dress(chart: Chart, openings: tuple[WallOpening, ...], interior: Interior) -> Sheet:
+def dress(chart: Chart, openings: tuple[WallOpening, ...], interior: Interior) -> TexelSheet:
     """The sheet of one surface of a room.
 
     Args:
@@ -26,4 +26,4 @@ def dress(chart: Chart, openings: tuple[WallOpening, ...], interior: Interior) -
     return reveal_sheet(chart, interior)
 
 
-__all__ = ["Chart", "Interior", "Sheet", "dress", "grid"]
+__all__ = ["Chart", "Interior", "TexelSheet", "dress", "grid"]

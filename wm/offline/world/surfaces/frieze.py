@@ -5,10 +5,10 @@ import dataclasses
 import numpy as np
 
 from wm.offline.style.finish import Rgb
-from wm.offline.style.sheet import mix
+from wm.offline.style.style_sheet import mix
 from wm.offline.world.materials.gears import TEETH, TOOTH, wheel
 from wm.offline.world.noise import cells, edge
-from wm.offline.world.surfaces.sheet import F32, Chart, Interior, Sheet, cropped, lay, over, pasted, shaded
+from wm.offline.world.surfaces.texel_sheet import F32, Chart, Interior, TexelSheet, cropped, lay, over, pasted, shaded
 
 FRIEZES: dict[str, tuple[str, float]] = {"clockwork": ("gears", 0.24), "roman": ("meander", 0.2)}
 """Ornament and height (metres) of a family's frieze."""
@@ -18,7 +18,7 @@ MEANDER = ("#######", "#.....#", "#.###.#", "#.#...#", "#.#####", "#......", "##
 """One repeat of a Greek key, seen from above: the lines are #; repeats share their left edge with the one before."""
 
 
-def frieze(chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: Interior, *, top: float) -> Sheet:
+def frieze(chart: Chart, sheet: TexelSheet, s: np.ndarray, z: np.ndarray, interior: Interior, *, top: float) -> TexelSheet:
     """The wall with its family's frieze, whose upper edge lies at the height `top`; bathrooms and low rooms have none."""
     name, tall = FRIEZES.get(interior.style.family, ("", 0.0))
     if not name or interior.kind == "bathroom" or top < 2.2:
@@ -30,8 +30,8 @@ def frieze(chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: I
 
 
 def _band(
-    chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: Interior, name: str, *, top: float, tall: float
-) -> Sheet:
+    chart: Chart, sheet: TexelSheet, s: np.ndarray, z: np.ndarray, interior: Interior, name: str, *, top: float, tall: float
+) -> TexelSheet:
     """The strip of wall about the frieze, with it."""
     middle = F32(top - tall / 2)
     inside = F32(tall / 2) - np.abs(z - middle)

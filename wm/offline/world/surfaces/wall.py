@@ -11,11 +11,11 @@ from wm.offline.world.materials.wall import trim_profile
 from wm.offline.world.materials.wood import NARROW, framed_panel
 from wm.offline.world.noise import cells, edge
 from wm.offline.world.surfaces.frieze import frieze
-from wm.offline.world.surfaces.sheet import (
+from wm.offline.world.surfaces.texel_sheet import (
     F32,
     Chart,
     Interior,
-    Sheet,
+    TexelSheet,
     as_sheet,
     cropped,
     grid,
@@ -31,7 +31,7 @@ BESIDE = 0.5  # metres beside an opening that its casing and the shadow of that 
 STILE = 0.085  # metres: frame between two panels of a wainscot
 
 
-def wall_sheet(chart: Chart, openings: tuple[WallOpening, ...], interior: Interior) -> Sheet:
+def wall_sheet(chart: Chart, openings: tuple[WallOpening, ...], interior: Interior) -> TexelSheet:
     """One wall of a room; `openings` are its openings in the chart's own metres."""
     s, t = grid(chart)
     z = t + F32(chart.origin[2])
@@ -62,7 +62,7 @@ def opening_distance(s: np.ndarray, z: np.ndarray, opening: WallOpening) -> np.n
     return np.maximum(across, np.maximum(above, below))
 
 
-def _shiplap(sheet: Sheet, z: np.ndarray) -> Sheet:
+def _shiplap(sheet: TexelSheet, z: np.ndarray) -> TexelSheet:
     """Painted boards laid level, a groove every 18 cm."""
     _, offset = cells(z, 0.18)
     groove = np.clip(F32(1) - (F32(0.09) - np.abs(offset)) / F32(0.012), 0, 1)
@@ -70,9 +70,9 @@ def _shiplap(sheet: Sheet, z: np.ndarray) -> Sheet:
 
 
 def _wainscot(
-    chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarray, openings: tuple[WallOpening, ...],
+    chart: Chart, sheet: TexelSheet, trim: TexelSheet, s: np.ndarray, z: np.ndarray, openings: tuple[WallOpening, ...],
     interior: Interior, finish: Finish, skirting: float,
-) -> Sheet:  # fmt: skip
+) -> TexelSheet:  # fmt: skip
     """The lower wall: panels that divide each stretch between doors evenly, closed by a rail."""
     top = min(interior.surfaces.wainscot_height, 0.6 * interior.height)
     if finish.material == "panelling" and finish.scale >= NARROW:
@@ -116,7 +116,7 @@ def cornice_depth(ornament: float) -> float:
     return 0.05 + 0.15 * ornament
 
 
-def _cornice(chart: Chart, sheet: Sheet, trim: Sheet, z: np.ndarray, interior: Interior) -> Sheet:
+def _cornice(chart: Chart, sheet: TexelSheet, trim: TexelSheet, z: np.ndarray, interior: Interior) -> TexelSheet:
     """A run moulding under the ceiling: cove and bead, deeper in ornate styles; plain styles get a thin line or none."""
     ornament = interior.style.form.ornament
     if ornament < 0.15:
@@ -133,8 +133,8 @@ def _cornice(chart: Chart, sheet: Sheet, trim: Sheet, z: np.ndarray, interior: I
 
 
 def _casing(
-    chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarray, opening: WallOpening, interior: Interior
-) -> Sheet:
+    chart: Chart, sheet: TexelSheet, trim: TexelSheet, s: np.ndarray, z: np.ndarray, opening: WallOpening, interior: Interior
+) -> TexelSheet:
     """An architrave around an opening: a stepped band with a bead at its inner and a back band at its outer edge.
 
     Doors and passages of ornate styles stand under a cap, windows on a sill board.
@@ -163,7 +163,7 @@ def _casing(
     return _band(sheet, trim, cap, depth=0.035, nosing=0.03, texel=chart.texel)
 
 
-def _band(sheet: Sheet, trim: Sheet, inside: np.ndarray, *, depth: float, nosing: float, texel: float) -> Sheet:
+def _band(sheet: TexelSheet, trim: TexelSheet, inside: np.ndarray, *, depth: float, nosing: float, texel: float) -> TexelSheet:
     """A moulding where `inside` (metres within its outline) is positive, rounded over `nosing` at its edge."""
     profile = F32(depth) * np.sqrt(np.clip(inside / F32(nosing), 0, 1))
     return over(sheet, trim, edge(inside, texel), lift=profile)

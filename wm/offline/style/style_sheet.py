@@ -1,4 +1,4 @@
-"""A style family on one sheet: what has to be said about it, and how a sheet becomes a full style."""
+"""The style sheet of a family: the choices that define it, and how a sheet is completed to a full style."""
 
 import dataclasses
 import math
@@ -26,8 +26,8 @@ TILES = ("stone_tiles", "water_tiles", "checker_tiles", "terracotta", "mosaic")
 
 
 @dataclasses.dataclass(frozen=True)
-class Sheet:
-    """What has to be said about a family; colours are hexadecimal codes."""
+class StyleSheet:
+    """The choices that define a style family; colours are hexadecimal codes."""
 
     words: tuple[str, ...]
     form: Form
@@ -85,7 +85,7 @@ def light(
     return Light(rgb(sun), strength, math.radians(elevation), math.radians(azimuth), rgb(sky), sky_strength, rgb(lamp), lamps)
 
 
-def build(theme: str, family: str, sheet: Sheet) -> Style:
+def build(theme: str, family: str, sheet: StyleSheet) -> Style:
     """The full style of a sheet: one finish for every surface and every slot."""
     dry = Surfaces(sheet.wall, sheet.floor, sheet.ceiling, sheet.trim, sheet.wainscot, sheet.wainscot_height)
     rooms = {"other": dry}
@@ -110,7 +110,7 @@ def build(theme: str, family: str, sheet: Sheet) -> Style:
                  tuple(rgb(c) for c in sheet.accents))  # fmt: skip
 
 
-def slot_finishes(sheet: Sheet) -> dict[str, Finish]:
+def slot_finishes(sheet: StyleSheet) -> dict[str, Finish]:
     """One finish for every furniture slot."""
     wood, dark, fabric, accent = rgb(sheet.wood), rgb(sheet.dark_wood), rgb(sheet.fabric), rgb(sheet.accent)
     linen, metal, brass, stone = rgb(sheet.linen), rgb(sheet.metal), rgb(sheet.brass), rgb(sheet.stone)
