@@ -8,7 +8,7 @@ import time
 from collections import Counter
 
 from wm.geometry.plan.loading import FloorPlan, PlanError, parse_plan
-from wm.offline.language.programme import CIRCULATION, kind_of
+from wm.offline.language.programme import CIRCULATION, room_kind_of
 from wm.synth.backends import LanguageBackend
 
 _LONGEST_NAME = 200  # as in wm.geometry.plan.loading
@@ -94,6 +94,6 @@ def _programme_violations(plan: FloorPlan, rooms: list[str]) -> list[str]:
     extra = [
         f"plan: programme: room {name!r} was not asked for; only halls and corridors may be added"
         for name in there - wanted
-        if kind_of(name).zone != CIRCULATION
+        if room_kind_of(name).zone != CIRCULATION
     ]
     return missing + extra

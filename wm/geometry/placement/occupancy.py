@@ -97,7 +97,7 @@ def distance_to_wall(site: Site, point: np.ndarray) -> tuple[float, np.ndarray]:
     return distance, away[k] / distance if distance > 1e-9 else -site.normals[k]
 
 
-def ring(radius: float, count: int = 24) -> np.ndarray:
+def circle_points(radius: float, count: int = 24) -> np.ndarray:
     """[count, 2] points evenly around a circle."""
     angle = 2 * math.pi * np.arange(count) / count
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from wm.geometry.placement.occupancy import Occupancy, distance_to_wall, ring
+from wm.geometry.placement.occupancy import Occupancy, circle_points, distance_to_wall
 from wm.geometry.placement.stacking import stacked
 from wm.geometry.placement.support import covers_windows, is_structure, support_of
 from wm.geometry.placement.upright import EXACT, flattened, levelled, moved_to, turn_between
@@ -126,7 +126,7 @@ def _shifted(box: UprightBox, site: Site, taken: Occupancy) -> UprightBox | None
 
 def _shifts(toward: np.ndarray) -> np.ndarray:
     """[n, 2] shifts in the order in which they are tried: short before long, towards the wall before away from it."""
-    shifts = np.concatenate([ring(radius) for radius in np.arange(0.005, REACH, _STEP)])
+    shifts = np.concatenate([circle_points(radius) for radius in np.arange(0.005, REACH, _STEP)])
     length = np.linalg.norm(shifts, axis=1)
     cost = length - _TO_WALL * (shifts @ toward)
     return shifts[np.argsort(cost, kind="stable")]

@@ -63,7 +63,7 @@ def in_sight(
     return seen
 
 
-def framed(camera: Camera, points: SurfacePoints) -> Bool[np.ndarray, "p"]:
+def in_picture(camera: Camera, points: SurfacePoints) -> Bool[np.ndarray, "p"]:
     """Whether the points fall within the picture, whatever stands between."""
     uv, depth = project_points(camera, points.position)
     with np.errstate(invalid="ignore"):
@@ -74,7 +74,7 @@ def times_seen(scene: RayScene, points: SurfacePoints, cameras: Sequence[Camera]
     """How many cameras see each point: in the picture, facing it, with nothing between."""
     times = np.zeros(len(points.face), int)
     for camera in cameras:
-        inside = np.flatnonzero(framed(camera, points))
+        inside = np.flatnonzero(in_picture(camera, points))
         times[inside] += in_sight(scene, points, inside, camera_center(camera))
     return times
 

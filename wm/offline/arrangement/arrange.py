@@ -47,19 +47,19 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     narrow = 2 * float(shapely.maximum_inscribed_circle(site.polygon, tolerance=0.02).length) < NARROW
     kind = "corridor" if narrow and kind in ("hall", "gallery", "living", "other") else kind
     style = lamped(style, kind, seed)
-    room = RoomArrangement(layout, style, rng, density)
+    arrangement = RoomArrangement(layout, style, rng, density)
     if kind != "bathroom" and rng.random() < 0.55 + 0.4 * style.form.softness:
-        curtain_pairs(room)
-    PROGRAMME[kind](room)
+        curtain_pairs(arrangement)
+    PROGRAMME[kind](arrangement)
     for name, middle, rooms in WALL_FEATURES.get(style.family, ()):
         if kind in rooms.split():
-            wall_piece(room, name, middle)
-    fill(room, kind)
+            wall_piece(arrangement, name, middle)
+    fill(arrangement, kind)
     for _ in range(2 if kind not in ("bathroom", "corridor", "kitchen", "dining") else 0):
-        if room.chance(0.9) and middle_piece(room, kind) is None:
+        if arrangement.chance(0.9) and middle_piece(arrangement, kind) is None:
             break
-    light(room)
-    hang_pictures(room, kind)
+    hang_lamps(arrangement)
+    hang_pictures(arrangement, kind)
     return layout.placed
 
 
@@ -97,7 +97,7 @@ def fill(room: RoomArrangement, kind: str) -> None:
         room.at_wall(name, where=where)
 
 
-def light(room: RoomArrangement) -> None:
+def hang_lamps(room: RoomArrangement) -> None:
     """A lamp over the middle of the floor, two in a long or large room, where none hangs yet."""
     site = room.layout.site
     hanging = [p for p in room.layout.placed if p.piece.support == "ceiling"]

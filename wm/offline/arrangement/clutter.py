@@ -46,7 +46,7 @@ def things_for(kind: str, style: Style, rng: np.random.Generator) -> list[str]:
     return [choices[k] for k in order][: HOW_MANY.get(kind, 2 + int(style.form.ornament > 0.6))]
 
 
-def dress(layout: Layout, placed: Placed, style: Style, rng: np.random.Generator, *, density: float) -> None:
+def add_clutter(layout: Layout, placed: Placed, style: Style, rng: np.random.Generator, *, density: float) -> None:
     """Puts things on a placed piece's surfaces, as many as find room."""
     for top in placed.piece.tops:
         things = [thing for thing in things_for(placed.piece.label, style, rng) if rng.random() < 0.35 + 0.65 * density]

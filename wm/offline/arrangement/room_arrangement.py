@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from wm.offline.arrangement.clutter import dress
+from wm.offline.arrangement.clutter import add_clutter
 from wm.offline.arrangement.layout import Layout, Placed
 from wm.offline.furniture import KINDS, Piece, make_piece
 from wm.offline.style.finish import Style
@@ -25,7 +25,7 @@ class RoomArrangement:
 
     def dressed(self, placed: Placed | None) -> Placed | None:
         if placed is not None:
-            dress(self.layout, placed, self.style, self.rng, density=self.density)
+            add_clutter(self.layout, placed, self.style, self.rng, density=self.density)
         return placed
 
     def at_wall(

@@ -14,7 +14,7 @@ import numpy as np
 from wm.offline.language.building import Building, building_of, draw
 from wm.offline.language.massing import draft
 from wm.offline.language.openings import Hole, draw_openings
-from wm.offline.language.programme import CIRCULATION, Space, kind_of, read_programme
+from wm.offline.language.programme import CIRCULATION, Space, read_programme, room_kind_of
 
 WALL_THICKNESS = 0.15
 _OF_OPENINGS = ("opening", "door", "window", "passage")
@@ -71,7 +71,7 @@ def _read_back(previous: str) -> tuple[list[Space], list[np.ndarray], list[int]]
     for (room_id, name), polygon in zip(names, polygons):
         x, y = polygon.T / 100
         area = float(abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))) / 2
-        spaces.append(Space(id=room_id, name=name, kind=kind_of(name), area=area))
+        spaces.append(Space(id=room_id, name=name, kind=room_kind_of(name), area=area))
     return spaces, polygons, heights
 
 

@@ -59,7 +59,7 @@ class Space:
     area: float  # square metres to aim for
 
 
-def kind_of(room: str) -> RoomKind:
+def room_kind_of(room: str) -> RoomKind:
     """The kind a room's name speaks of; a public room of middling size where it speaks of none."""
     return _KINDS[room_sort(room)]
 
@@ -74,7 +74,7 @@ def read_programme(rooms: list[str], building: Building, rng: np.random.Generato
 
 def add_space(spaces: list[Space], room: str, building: Building, rng: np.random.Generator) -> int:
     """Appends one more room to the programme and returns its index."""
-    kind = kind_of(room)
+    kind = room_kind_of(room)
     share = float(rng.uniform(*building.share))
     area = kind.area[0] + share * (kind.area[1] - kind.area[0])
     same = sum(_slug(space.name) == _slug(room) for space in spaces)

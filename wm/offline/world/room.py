@@ -22,7 +22,7 @@ from wm.offline.world.light import (
     build_facets,
     build_probes,
     ceiling_emitters,
-    exposed,
+    in_free_air,
     lamp_emitters,
     luxel_positions,
     pane_emitters,
@@ -66,7 +66,7 @@ def bake_room(
         sheets = list(pool.map(lambda chart: dress(chart, _openings(plan, room, chart), interior), spans))
     pieces, facets, facet_faces = _objects(scene, room, objects, style, interior.seed, settings)
     probes = build_probes(
-        facets, exposed(scene, facets.position, facets.normal), spacing=settings.probe_spacing, budget=settings.probes
+        facets, in_free_air(scene, facets.position, facets.normal), spacing=settings.probe_spacing, budget=settings.probes
     )
     points = _light_points(charts, sheets, pieces, facets, facet_faces, probes)
     light = style.light

@@ -15,10 +15,10 @@ from wm.offline.world.light.sources import (
     soften,
     sun_direction,
 )
-from wm.offline.world.light.transport import exposed
+from wm.offline.world.light.transport import in_free_air
 
 __all__ = [
     "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "Probes", "RoomCharts", "Sources", "bake", "build_facets",
-    "build_probes", "ceiling_emitters", "chart_places", "exposed", "facet_weights", "glow_color", "lamp_emitters", "look_up",
+    "build_probes", "ceiling_emitters", "chart_places", "facet_weights", "glow_color", "in_free_air", "lamp_emitters", "look_up",
     "luxel_positions", "pane_emitters", "room_charts", "soften", "sun_direction",
 ]  # fmt: skip

@@ -69,7 +69,7 @@ def sunlight(
     return total
 
 
-def exposed(scene: RayScene, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
+def in_free_air(scene: RayScene, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """[n] bool: whether a point on a surface stands in free air: most of five rays from it meet no surface from behind."""
     free = np.empty(len(position), bool)
     tilted = np.array([[0.0, 0.0, 1.0], [0.8, 0.1, 0.6], [-0.7, 0.2, 0.7], [0.1, 0.8, 0.6], [-0.2, -0.7, 0.7]], np.float32)

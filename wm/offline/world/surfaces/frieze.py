@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from wm.offline.style.finish import Rgb
-from wm.offline.style.style_sheet import mix
+from wm.offline.style.style_sheet import mix_rgb
 from wm.offline.world.materials.gears import TEETH, TOOTH, wheel
 from wm.offline.world.noise import cells, edge
 from wm.offline.world.surfaces.texel_sheet import F32, Chart, Interior, TexelSheet, cropped, lay, over, pasted, shaded
@@ -56,7 +56,7 @@ def _colors(interior: Interior, darkened: float) -> tuple[Rgb, Rgb]:
     surfaces = interior.surfaces
     base = surfaces.wainscot.colors[0] if surfaces.wainscot is not None else surfaces.wall.colors[0]
     gilt = interior.style.slot("brass").colors[0]
-    return mix(base, (0.05, 0.08, 0.07), darkened), mix(gilt, (1.0, 0.95, 0.8), 0.1)
+    return mix_rgb(base, (0.05, 0.08, 0.07), darkened), mix_rgb(gilt, (1.0, 0.95, 0.8), 0.1)
 
 
 def _gears(s: np.ndarray, t: np.ndarray, tall: float, texel: float) -> np.ndarray:
