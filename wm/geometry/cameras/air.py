@@ -21,6 +21,8 @@ from wm.geometry.rays.raycast import RayScene, cast_rays
 from wm.schema import CameraSettings
 from wm.types import Camera
 
+FACE = 0.1
+"""Metres of free air around the eye of a visitor; a camera wants more (CameraSettings.clearance), to see past what is near."""
 _DIRECTIONS = 96
 """Rays a probe: 0.36 rad apart, so that at half the usual clearance of 0.3 m nothing wider than 6 cm slips through."""
 _INSIDE = 0.3

@@ -11,7 +11,7 @@ import dataclasses
 import numpy as np
 from jaxtyping import Bool, Float
 
-from wm.geometry.cameras.air import RoomAir, free, room_air
+from wm.geometry.cameras.air import FACE, RoomAir, free, room_air
 from wm.geometry.mesh.scene_mesh import face_crosses
 from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
@@ -22,7 +22,6 @@ from wm.types import OUTSIDE, Mesh
 
 _LOW = 0.9  # metres: the lowest eyes, those of views close to furniture
 _EYES = 8  # a room and height, evenly over its floor
-_FACE = 0.1  # metres of free air around an eye
 _ACROSS = (0.15, 0.5, 0.85)  # where eyes stand in a doorway, as shares of its width
 _A_CELL = 3.0
 """Points for every cell's area: a cell is then missed one time in twenty if they fell at random, and less often in R2's order."""
@@ -58,7 +57,7 @@ def room_eyes(plan: FloorPlan, scene: RayScene, room: int, settings: CameraSetti
         _in_doorway(portal.ends, height)
         for portal in portals(plan)
         if portal.kind != "window" and room in portal.rooms
-        for height in (_LOW, min(air.eye_height, portal.head - _FACE))
+        for height in (_LOW, min(air.eye_height, portal.head - FACE))
     ]
     return np.concatenate([*inside, *doors])
 
@@ -75,7 +74,7 @@ def exposed(scene: RayScene, points: SurfacePoints, eyes: Float[np.ndarray, "n 3
 def _spread(air: RoomAir, height: float) -> Float[np.ndarray, "n 3"]:
     """Up to _EYES free points of the room at a height: again and again the one farthest from those there are."""
     spots = np.column_stack([air.samples, np.full(len(air.samples), height)])
-    spots = spots[free(air.scene, spots, _FACE)]
+    spots = spots[free(air.scene, spots, FACE)]
     chosen = spots[:1]
     while len(chosen) < min(_EYES, len(spots)):
         gap = np.linalg.norm(spots[:, None] - chosen, axis=-1).min(axis=1)

@@ -19,6 +19,7 @@ from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
 from wm.errors import InputError
+from wm.geometry.placement.clearances import BODY
 from wm.geometry.placement.navigation import body_floor, cells_inside, object_corners, walkable_floor
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.plan.openings import portals
@@ -27,11 +28,10 @@ from wm.geometry.rays.pinhole import make_camera
 from wm.schema import CameraSettings
 from wm.types import Camera, Mesh
 
-RADIUS = 0.25  # metres of free floor around the walker
 LOOK_AHEAD = 0.9  # metres
 TURNING = 75.0  # degrees a second in a glance
-_HEADROOM = 0.25  # metres of free air above and below the eye
-_CELL = 0.1  # metres of the route's grid
+_AIR = 0.25  # metres of free air above and below the eye
+_CELL = 0.1  # metres of the route's grid: finer than navigation's, because positions are read from it and not only counted
 _SMOOTHING = 0.35  # seconds: standard deviation of the filter over positions and headings
 _PITCH = -4.0  # degrees: a walker looks a little down
 _DEFAULTS = CameraSettings()
@@ -48,9 +48,7 @@ class _Floor:
     radius: float
 
 
-def walkthrough(
-    plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS, *, fps: int, speed: float
-) -> list[Camera]:
+def walkthrough(plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS, *, fps: int, speed: float) -> list[Camera]:
     """One camera a frame, from the first room through the doors into every other, with a look around in each.
 
     Args:
@@ -63,7 +61,7 @@ def walkthrough(
     if not (fps > 0 and speed > 0):
         raise ValueError(f"a walk needs frames and a speed above 0, not fps {fps}, speed {speed}")
     doors = [portal.head for portal in portals(plan) if portal.kind != "window"]
-    height = min(settings.eye_height, *(room.ceiling_height - _HEADROOM for room in plan.rooms), *(h - _HEADROOM for h in doors))
+    height = min(settings.eye_height, *(room.ceiling_height - _AIR for room in plan.rooms), *(h - _AIR for h in doors))
     floor = _walkable(plan, mesh, height)
     legs = _route(floor)
     positions, headings = _walk(legs, fps, speed)
@@ -79,10 +77,10 @@ def walkthrough(
 def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
     """The widest floor that joins all rooms: around all furniture, else a slimmer walker, else over low furniture too."""
     things = object_corners(mesh)
-    tall = [corners for corners in things if corners[..., 2].max() > height - _HEADROOM]
+    tall = [corners for corners in things if corners[..., 2].max() > height - _AIR]
     unreached = []
-    for radius, obstacles in ((RADIUS, things), (0.6 * RADIUS, things), (RADIUS, tall), (0.4 * RADIUS, tall)):
-        area = body_floor(plan, obstacles, height=height + _HEADROOM, radius=radius)
+    for radius, obstacles in ((BODY, things), (0.6 * BODY, things), (BODY, tall), (0.4 * BODY, tall)):
+        area = body_floor(plan, obstacles, height=height + _AIR, radius=radius)
         floor = _grid(plan, area, radius)
         if floor is None:
             continue
@@ -91,7 +89,7 @@ def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
         if not unreached:
             return floor
     names = ", ".join(unreached) or "any room"
-    raise InputError(f"no walk into {names}: a walker {0.8 * RADIUS:.2f} m wide finds doors blocked or no free floor")
+    raise InputError(f"no walk into {names}: a walker {0.8 * BODY:.2f} m wide finds doors blocked or no free floor")
 
 
 def _grid(plan: FloorPlan, area: BaseGeometry, radius: float) -> _Floor | None:
@@ -132,9 +130,7 @@ def _route(floor: _Floor) -> list[np.ndarray]:
     """Polylines [k, 2] from stop to stop, always to the nearest room not yet visited."""
     left, here, legs = set(range(1, len(floor.stops))), 0, []
     while left:
-        distance, previous = scipy.sparse.csgraph.dijkstra(
-            floor.graph, indices=int(floor.stops[here]), return_predecessors=True
-        )
+        distance, previous = scipy.sparse.csgraph.dijkstra(floor.graph, indices=int(floor.stops[here]), return_predecessors=True)
         there = min(left, key=lambda room: (distance[floor.stops[room]], room))
         path = [int(floor.stops[there])]
         while path[-1] != floor.stops[here]:

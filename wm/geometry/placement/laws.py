@@ -21,7 +21,7 @@ from wm.types import Mesh, SceneObject
 LIMIT = 0.01
 """Metres."""
 TILT = math.radians(1.0)
-_BODY, _HEADROOM = 0.25, 1.8  # those of navigation, said again: see above
+_BODY, _HEADROOM = 0.25, 1.8  # as in clearances.py, stated again: a slip there must not pass here
 _CELL = 0.05
 _HELD = 1 / 3
 """Share of the points under a thing that must find something within LIMIT below them."""

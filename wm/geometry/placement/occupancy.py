@@ -1,8 +1,8 @@
-"""What of a room is taken: whether one more box may stand somewhere, and whether people can still pass the doors.
+"""What of a room is taken: whether one more measured box may stand somewhere, and whether people can still pass the doors.
 
 A box may stand where it is inside the room, clear of every other box whose height it shares, out of the floor before doors and
-passages if a body could run into it, and where a body (navigation.BODY) still gets from every door to every other that it could
-reach in the empty room.
+passages if a body could run into it, and where a body (clearances.BODY) still gets from every door to every other that it could
+reach in the empty room. Why rooms that are designed have an engine of their own, with stricter rules: clearances.py.
 """
 
 import math
@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from wm.geometry.placement.navigation import BODY, HEADROOM, STEP
+from wm.geometry.placement.clearances import BODY, in_the_way
 from wm.geometry.placement.upright_box import UprightBox, overlap_height, penetration
 from wm.geometry.plan.site import Site
 
@@ -19,7 +19,7 @@ TOLERANCE = 0.004
 """Metres that a thing may reach into another or into a wall and still stay where it is: less than the centimetre that is
 allowed, more than rounding."""
 CLEARANCE = 0.01
-"""Metres between things that had to be moved apart."""
+"""Metres between things that had to be moved apart, and between a thing that was moved and a wall."""
 _NEAR = 0.3
 """Metres within which a body must be able to come to the standing place before a door."""
 
@@ -40,7 +40,7 @@ class Occupancy:
     def add(self, box: UprightBox) -> None:
         """Takes the place of a box that `allows` has allowed."""
         self.boxes.append(box)
-        if _in_the_way(box):
+        if in_the_way(box.z, box.top):
             self._standing = self._standing.difference(box.footprint.buffer(BODY))
 
     def allows(self, box: UprightBox, *, exactly: bool = False) -> bool:
@@ -57,7 +57,7 @@ class Occupancy:
             return False
         if len(self.blockers(box, TOLERANCE if exactly else -CLEARANCE)):
             return False
-        return not _in_the_way(box) or (self._off_doors(footprint) and self._passable(footprint))
+        return not in_the_way(box.z, box.top) or (self._off_doors(footprint) and self._passable(footprint))
 
     def blockers(self, box: UprightBox, reach: float = TOLERANCE) -> list[UprightBox]:
         """The placed boxes that a box reaches into by more than `reach` metres."""
@@ -72,10 +72,6 @@ class Occupancy:
         standing = self._standing.difference(footprint.buffer(BODY))
         now = _reached(standing, self.site.probes)
         return all(any(wanted <= group for group in now) for wanted in self._together)
-
-
-def _in_the_way(box: UprightBox) -> bool:
-    return box.z < HEADROOM and box.top > STEP
 
 
 def _reached(standing: BaseGeometry, probes: np.ndarray) -> list[frozenset[int]]:

@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 
+from wm.geometry.placement.clearances import FLAT, LIFT, WALL_GAP
 from wm.geometry.placement.occupancy import Occupancy, circle_points, distance_to_wall
 from wm.geometry.placement.stacking import stacked
 from wm.geometry.placement.support import covers_windows, is_structure, support_of
@@ -21,12 +22,6 @@ from wm.geometry.placement.upright_box import UprightBox, box_of
 from wm.geometry.plan.site import Site, wall_yaw
 from wm.types import SceneObject
 
-LIFT = 0.002
-"""Metres between a thing and what it stands on, so that no two faces share a plane."""
-PRESSED = 0.008
-"""Metres that a thing lying on the floor is high at most: less than the feet of what stands on it may sink in."""
-WALL_GAP = 0.005
-"""Metres between a wall and the back of what hangs on it."""
 REACH = 1.2
 """Metres by which a thing is shifted at most before it is left out."""
 _STEP = 0.04
@@ -106,7 +101,7 @@ def _placed(thing: SceneObject, site: Site, taken: Occupancy, done: dict[int, Sc
         box = box_of(thing)
         box = _shifted(dataclasses.replace(box, z=site.ceiling - LIFT - box.height), site, taken)
     else:
-        thing = flattened(thing, PRESSED) if thing.support == "flat" else thing
+        thing = flattened(thing, FLAT) if thing.support == "flat" else thing
         box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
     return moved_to(thing, box) if box is not None else None
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from wm.geometry.plan.records import FloorPlan, Opening, PlanError, Room, Violation
+from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, Room, Violation
 
 MAX_BYTES = 8 * 2**20
 MAX_ROOMS = 2048
@@ -15,8 +15,6 @@ MAX_OPENINGS = 64  # a room
 MAX_COORDINATE = 1e4  # metres
 CEILING = (1.8, 50.0)  # metres: below the lowest nobody stands
 WALL = (0.05, 1.0)
-DEFAULT_WALL = 0.15
-DEFAULT_CEILING = 2.8
 WINDOW_SILL = 0.9  # where a window does not say
 # Ids become folder names (views/<room>/), so nothing that a path could mean.
 _ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
@@ -114,13 +112,13 @@ class Reader:
     def _metadata(self, metadata: Any) -> tuple[float, float]:
         if not isinstance(metadata, dict):
             self._fault(None, "type", f"'metadata' must be an object, not {_kind(metadata)}")
-            return DEFAULT_WALL, DEFAULT_CEILING
+            return WALL_THICKNESS, CEILING_HEIGHT
         for key, wanted in (("units", "meters"), ("coordinate_system", "z_up")):
             if metadata.get(key, wanted) != wanted:
                 self._fault(None, "units", f"metadata.{key} is {_show(metadata[key])}; only {wanted!r} is understood")
-        wall = self._number(None, metadata, "metadata.wall_thickness", DEFAULT_WALL, *WALL)
-        ceiling = self._number(None, metadata, "metadata.default_ceiling_height", DEFAULT_CEILING, *CEILING)
-        return (DEFAULT_WALL if wall is None else wall), (DEFAULT_CEILING if ceiling is None else ceiling)
+        wall = self._number(None, metadata, "metadata.wall_thickness", WALL_THICKNESS, *WALL)
+        ceiling = self._number(None, metadata, "metadata.default_ceiling_height", CEILING_HEIGHT, *CEILING)
+        return (WALL_THICKNESS if wall is None else wall), (CEILING_HEIGHT if ceiling is None else ceiling)
 
     def _room(self, value: Any, index: int, ceiling: float) -> Room | None:
         name = f"rooms[{index}]"

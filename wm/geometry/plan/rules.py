@@ -15,7 +15,7 @@ from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan, Room, Violation
 from wm.geometry.plan.walls import SHARED, room_polygons
 
-LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius to be entered
+LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius, a little more than a body, to be entered
 LEAST_AREA = 0.01  # square metres; less is no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
 MOST_OVERLAPS = 256  # more are not listed, and nothing else is asked of such a heap

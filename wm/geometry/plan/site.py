@@ -16,6 +16,9 @@ DOOR_DEPTH = 0.9
 DOOR_SIDE = 0.05
 """Metres kept clear on either side of it."""
 
+INTO_WALL = 0.05
+"""Metres by which the zone before a door reaches into the wall, so that no sliver of floor is left between them."""
+
 
 @dataclasses.dataclass(frozen=True)
 class WallOpening:
@@ -79,8 +82,8 @@ def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str
             continue
         a, b = starts[k] + (low - DOOR_SIDE) * directions[k], starts[k] + (high + DOOR_SIDE) * directions[k]
         reach = DOOR_DEPTH * normals[k]
-        keep.append(shapely.Polygon([a - 0.05 * normals[k], b - 0.05 * normals[k], b + reach, a + reach]))
-        probes.append(starts[k] + 0.5 * (low + high) * directions[k] + 0.45 * normals[k])
+        keep.append(shapely.Polygon([a - INTO_WALL * normals[k], b - INTO_WALL * normals[k], b + reach, a + reach]))
+        probes.append(starts[k] + 0.5 * (low + high) * directions[k] + DOOR_DEPTH / 2 * normals[k])
     pole = shapely.maximum_inscribed_circle(polygon, tolerance=0.02).coords[0]
     return Site(
         polygon=polygon, ceiling=ceiling, starts=starts, directions=directions, normals=normals, lengths=lengths,
@@ -114,10 +117,3 @@ def nearest_wall(ends: np.ndarray, starts: np.ndarray, directions: np.ndarray, n
 def wall_yaw(normal: np.ndarray) -> float:
     """Turn about z (radians) that makes a piece's front, -y, face along `normal`."""
     return math.atan2(float(normal[0]), -float(normal[1]))
-
-
-def rectangle(x: float, y: float, yaw: float, w: float, d: float) -> shapely.Polygon:
-    """An oriented footprint of width w and depth d centred on (x, y)."""
-    c, s = math.cos(yaw), math.sin(yaw)
-    corners = [(-w / 2, -d / 2), (w / 2, -d / 2), (w / 2, d / 2), (-w / 2, d / 2)]
-    return shapely.Polygon([(x + c * a - s * b, y + s * a + c * b) for a, b in corners])

@@ -11,7 +11,7 @@ from wm.geometry.texture.atlas import chart_image
 from wm.geometry.texture.packing import filled_image, shelves
 from wm.types import Atlas, Mesh
 
-RIM = 2  # texels around every chart
+RIM = 2  # texels around every chart: viewers read this atlas through mipmaps, of which the first level needs two
 UNPAINTED = 0.5  # sRGB grey of charts that no view saw, and of the outer skin
 
 

@@ -12,7 +12,7 @@ from wm.geometry.texture.atlas import texel_charts
 from wm.geometry.texture.packing import filled_image, shelves
 from wm.types import Atlas
 
-RIM = 1  # pixels around every chart of more than one texel
+RIM = 1  # pixels around every chart of more than one texel: what bilinear lookups reach (atlas_export allows for mipmaps)
 
 
 def chart_texture(

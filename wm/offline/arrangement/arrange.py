@@ -162,9 +162,7 @@ def hang_pictures(room: RoomArrangement, kind: str) -> None:
 
 def scene_object(placed: Placed, room: int) -> SceneObject:
     """A placed piece as the scene's record, in world space."""
-    c, s = math.cos(placed.yaw), math.sin(placed.yaw)
-    transform = np.array([[c, -s, 0.0, placed.x], [s, c, 0.0, placed.y], [0.0, 0.0, 1.0, placed.z], [0.0, 0.0, 0.0, 1.0]])
-    piece = placed.piece
+    piece, transform = placed.piece, placed.box.transform
     return SceneObject(
         label=piece.label,
         room=room,

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from wm.offline.arrangement.layout import LIFT, Layout, Placed
+from wm.geometry.placement.clearances import LIFT
+from wm.offline.arrangement.layout import Layout, Placed
 from wm.offline.furniture import make_piece
 from wm.offline.style.finish import PERIOD, Style
 

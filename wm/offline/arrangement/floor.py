@@ -15,7 +15,7 @@ import shapely
 from scipy import ndimage
 from shapely.geometry.base import BaseGeometry
 
-from wm.geometry.placement.navigation import BODY
+from wm.geometry.placement.clearances import BODY
 from wm.geometry.plan.site import Site
 from wm.schema import NavigationSettings
 

@@ -5,7 +5,8 @@ Each returns its anchor, or None where it found no place; companions come as far
 
 import math
 
-from wm.geometry.plan.site import rectangle
+from wm.geometry.placement.clearances import FLAT
+from wm.geometry.placement.upright_box import UprightBox
 from wm.offline.arrangement.clutter import place_on
 from wm.offline.arrangement.hangings import hang
 from wm.offline.arrangement.layout import Placed
@@ -17,12 +18,9 @@ from wm.offline.style.finish import PERIOD
 def rug_under(room: RoomArrangement, x: float, y: float, yaw: float, w: float, d: float) -> Placed | None:
     """A rug, smaller if need be, centred where a group stands."""
     for factor in (1.0, 0.85, 0.7):
-        piece = room.piece("rug", (w * factor, d * factor, 0.008))
-        if all(
-            other.piece.support != "flat"
-            or not other.footprint.intersects(rectangle(x, y, yaw, w * factor + 0.02, d * factor + 0.02))
-            for other in room.layout.placed
-        ):
+        taken = UprightBox(x, y, 0.0, yaw, w * factor + 0.02, d * factor + 0.02, FLAT).footprint
+        piece = room.piece("rug", (w * factor, d * factor, FLAT))
+        if all(other.piece.support != "flat" or not other.footprint.intersects(taken) for other in room.layout.placed):
             placed = room.layout.try_at(piece, x, y, yaw)
             if placed is not None:
                 return placed
@@ -145,7 +143,7 @@ def middle_piece(room: RoomArrangement, kind: str) -> Placed | None:
         placed = room.dressed(room.layout.on_floor(room.piece("round table"), room.rng, (x, y), yaw=0.0, radius=0.6, spread=0.1))
     if placed is not None and free > 1.4:
         side = min(2 * free - 0.9, 2.2)
-        size = (side, side, 0.008)
+        size = (side, side, FLAT)
         if not any(
             other.piece.support == "flat" and other.footprint.distance(placed.footprint) < side / 2
             for other in room.layout.placed

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from wm.offline.arrangement.layout import LIFT, Placed
+from wm.geometry.placement.clearances import LIFT, WALL_GAP
+from wm.offline.arrangement.layout import Placed
 from wm.offline.arrangement.room_arrangement import RoomArrangement
 from wm.offline.furniture import KINDS
 
@@ -48,7 +49,7 @@ def on_wall(
     piece = room.piece(kind, size)
     half = float(piece.size[0]) / 2 + 0.011
     span = (float(along[wall]) - half, float(along[wall]) + half)
-    return room.layout.against_wall(piece, room.rng, gap=0.005, z=max(z, below.top + 0.08), walls=[wall], span=span)
+    return room.layout.against_wall(piece, room.rng, gap=WALL_GAP, z=max(z, below.top + 0.08), walls=[wall], span=span)
 
 
 def wall_piece(
@@ -57,7 +58,7 @@ def wall_piece(
     """A wall piece with its centre at a height, on any wall that has room for it."""
     piece = room.piece(kind, size)
     z = min(middle, room.layout.site.ceiling - 0.08 - float(piece.size[2]) / 2) - float(piece.size[2]) / 2
-    return room.layout.against_wall(piece, room.rng, gap=0.005, z=z, where="centre" if room.rng.random() < 0.6 else "any")
+    return room.layout.against_wall(piece, room.rng, gap=WALL_GAP, z=z, where="centre" if room.rng.random() < 0.6 else "any")
 
 
 def above(room: RoomArrangement, kind: str, wall: int, middle: float, z: float, w: float) -> Placed | None:
@@ -65,7 +66,7 @@ def above(room: RoomArrangement, kind: str, wall: int, middle: float, z: float, 
     low = KINDS[kind].low
     piece = room.piece(kind, (w, low[1], min(low[2] + 0.05, room.layout.site.ceiling - z - 0.05)))
     half = float(piece.size[0]) / 2 + 0.011
-    return room.layout.against_wall(piece, room.rng, gap=0.005, z=z, walls=[wall], span=(middle - half, middle + half))
+    return room.layout.against_wall(piece, room.rng, gap=WALL_GAP, z=z, walls=[wall], span=(middle - half, middle + half))
 
 
 def curtain_pairs(room: RoomArrangement) -> int:
@@ -84,7 +85,9 @@ def curtain_pairs(room: RoomArrangement) -> int:
                 continue
             piece = room.piece("curtains", (span[1] - span[0] - 0.024, 0.09, top - low))
             middle = 0.5 * (span[0] + span[1])
-            x, y = (site.starts[k] + middle * site.directions[k] + (0.005 + float(piece.size[1]) / 2) * site.normals[k]).tolist()
+            x, y = (
+                site.starts[k] + middle * site.directions[k] + (WALL_GAP + float(piece.size[1]) / 2) * site.normals[k]
+            ).tolist()
             if room.layout.try_at(piece, x, y, math.atan2(float(site.normals[k, 0]), -float(site.normals[k, 1])), z=low):
                 hung += 1
                 break

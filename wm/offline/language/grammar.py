@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from wm.geometry.plan.records import WALL_THICKNESS
 from wm.offline.language.building import Building, building_of, draw
 from wm.offline.language.massing import draft
 from wm.offline.language.openings import Hole, draw_openings
 from wm.offline.language.programme import CIRCULATION, Space, read_programme, room_kind_of
 
-WALL_THICKNESS = 0.15
 _OF_OPENINGS = ("opening", "door", "window", "passage")
 
 

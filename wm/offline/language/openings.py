@@ -18,9 +18,9 @@ from wm.offline.language.programme import CIRCULATION, PRIVATE, PUBLIC, WET, Spa
 
 JAMB = 38  # cm from a wall's centre line to a door: 0.3 m of wall beside it
 TIGHT = 24  # where no more room is
-APART = 30  # cm of wall between two openings
+APART = 30  # cm of wall between two openings: many times what a plan may have (wm.geometry.plan.openings.APART)
 CORNER = 50  # cm from a window to the end of its wall
-OUTLOOK = 120  # cm of open air that a window is worth having for
+OUTLOOK = 120  # cm of open air before a window that is worth having: four times what a plan may have (wm.geometry.plan.rules)
 
 # Pairs of kinds that are joined where they touch, beside the way every room has to the core.
 _FRIENDS = {

@@ -18,10 +18,9 @@ from wm.geometry.mesh.scene_mesh import face_crosses
 from wm.offline.style.finish import Finish, Style
 from wm.offline.world.light.sources import glow_color
 from wm.offline.world.materials import Points, evaluate
-from wm.offline.world.noise import random_cells
+from wm.offline.world.noise import F32, random_cells
 from wm.types import SceneObject
 
-F32 = np.float32
 GRAINED = ("wood", "painted_wood", "metal", "panelling", "textile", "leather", "lacquer")
 """Materials with a grain, which runs along the longest side of the part; the rest keep the object's own axes."""
 SPECULAR = 0.05

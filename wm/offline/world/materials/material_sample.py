@@ -8,9 +8,7 @@ from jaxtyping import Float, Int
 
 from wm.color import to_linear
 from wm.offline.style.finish import Finish
-from wm.offline.world.noise import cells, fbm, random_cells
-
-F32 = np.float32
+from wm.offline.world.noise import F32, cells, fbm, random_cells
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

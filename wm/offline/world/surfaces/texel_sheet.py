@@ -12,9 +12,8 @@ from scipy.ndimage import gaussian_filter
 
 from wm.offline.style.finish import Finish, Style, Surfaces
 from wm.offline.world.materials import MaterialSample, evaluate, flat_points
+from wm.offline.world.noise import F32
 from wm.types import SurfaceKind
-
-F32 = np.float32
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
