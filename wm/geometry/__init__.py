@@ -1,4 +1,14 @@
-"""Plans, structure, cameras, raycasts and texture on the host, in NumPy float64. Nothing heavy is imported before its use."""
+"""Geometry on the host, in NumPy float64. Each package imports only those listed above it.
+
+    plan       floor plans: reading, rules, walls, openings, the free floor
+    mesh       triangle meshes: the building carved from a plan, objects, GLB
+    rays       pinhole cameras, raycasts and G-buffers
+    texture    the texture atlas: images projected into it, its colours read and exported
+    placement  furniture: where it may stand, what it rests on, where people can walk
+    cameras    where views stand, what they see, the walk of the video
+
+embreex is imported with the first ray scene and not before.
+"""
 
 from wm.geometry.cameras.heldout import place_heldout as place_heldout
 from wm.geometry.cameras.sightlines import visible_rooms as visible_rooms

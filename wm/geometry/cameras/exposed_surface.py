@@ -1,6 +1,6 @@
 """The exposed surface of a room: what an eye may see from anywhere in its free air, or through one of its doors.
 
-Whatever a camera outside a room sees of it, it sees through a doorway. So eyes in the room's air and in its doorways stand for
+A camera outside a room sees it only through a doorway. So eyes in the room's air and in its doorways stand for
 all cameras of the scene, and the exposed surface of a room costs the same however many rooms there are.
 
 Tiers of work: per room the eyes; per eye the shadow rays of the points that face it and that no eye before has seen.
@@ -21,10 +21,10 @@ from wm.schema import CameraSettings
 from wm.types import OUTSIDE, Mesh
 
 _LOW = 0.9  # metres: the lowest eyes, those of views close to furniture
-_EYES = 8  # a room and height, evenly over its floor
+_EYES = 8  # per room and height, evenly over its floor
 _ACROSS = (0.15, 0.5, 0.85)  # where eyes stand in a doorway, as shares of its width
 _A_CELL = 3.0
-"""Points for every cell's area: a cell is then missed one time in twenty if they fell at random, and less often in R2's order."""
+"""Points per area of a cell: points that fell at random would then miss one cell in twenty; the R2 sequence misses fewer."""
 
 
 def room_surface(mesh: Mesh, room: int, *, spacing: float, detail_spacing: float) -> SurfacePoints:
@@ -72,7 +72,7 @@ def exposed(scene: RayScene, points: SurfacePoints, eyes: Float[np.ndarray, "n 3
 
 
 def _spread(air: RoomAir, height: float) -> Float[np.ndarray, "n 3"]:
-    """Up to _EYES free points of the room at a height: again and again the one farthest from those there are."""
+    """Up to _EYES free points of the room at a height, each the one farthest from those before it."""
     spots = np.column_stack([air.samples, np.full(len(air.samples), height)])
     spots = spots[free(air.scene, spots, FACE)]
     chosen = spots[:1]

@@ -25,7 +25,7 @@ from wm.types import Mesh, View
 _POINTS = 20_000
 """Surface points: a share near 0.97 is then known to about 0.001."""
 _EYES = (1.2, 1.6)  # metres above the floor: a visitor sitting, a visitor standing
-_PROBES = 40  # a room and height
+_PROBES = 40  # per room and height
 
 
 @dataclasses.dataclass(frozen=True)

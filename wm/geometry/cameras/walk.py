@@ -2,7 +2,7 @@
 
     route    the free floor of a body (walls and objects moved out by its radius) as a grid; shortest paths on it (Dijkstra)
              from room to nearest unvisited room, pulled straight where nothing is in the way
-    walk     one position a frame at walking speed, smoothed in time; looking LOOK_AHEAD metres ahead along the route
+    walk     one position per frame at walking speed, smoothed in time; looking LOOK_AHEAD metres ahead along the route
     glance   in each room the walker stops at its most open spot and turns, the long way, to where it goes on
 
 Smoothing cuts corners by less than the body's radius or is weakened until it does, so the walk stays in free air.
@@ -29,7 +29,7 @@ from wm.schema import CameraSettings
 from wm.types import Camera, Mesh
 
 LOOK_AHEAD = 0.9  # metres
-TURNING = 75.0  # degrees a second in a glance
+TURNING = 75.0  # degrees per second while the walker looks around
 _AIR = 0.25  # metres of free air above and below the eye
 _CELL = 0.1  # metres of the route's grid: finer than navigation's, because positions are read from it and not only counted
 _SMOOTHING = 0.35  # seconds: standard deviation of the filter over positions and headings
@@ -49,7 +49,7 @@ class _Floor:
 
 
 def walkthrough(plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS, *, fps: int, speed: float) -> list[Camera]:
-    """One camera a frame, from the first room through the doors into every other, with a look around in each.
+    """One camera per frame, from the first room through the doors into every other, with a look around in each.
 
     Args:
         plan, mesh: as for `place_cameras`.
@@ -75,7 +75,7 @@ def walkthrough(plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULT
 
 
 def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
-    """The widest floor that joins all rooms: around all furniture, else a slimmer walker, else over low furniture too."""
+    """The floor of the widest walker who gets into all rooms: around all furniture, else slimmer, else over low furniture too."""
     things = object_corners(mesh)
     tall = [corners for corners in things if corners[..., 2].max() > height - _AIR]
     unreached = []
@@ -142,7 +142,7 @@ def _route(floor: _Floor) -> list[np.ndarray]:
 
 
 def _straighten(area: BaseGeometry, path: np.ndarray) -> np.ndarray:
-    """The path with every detour left out that a straight line within the area makes needless."""
+    """The path with its detours replaced by straight lines wherever those stay within the area."""
     kept, k = [0], 0
     while k < len(path) - 1:
         ahead = np.arange(len(path) - 1, k, -1)

@@ -83,11 +83,11 @@ def carve(blocks: Sequence[LabelledSolid], cutters: Sequence[LabelledSolid]) -> 
       labels: [f] the label of the plane on which each triangle lies.
 
     Raises:
-      RuntimeError: the geometry kernel failed; its errors are values, so they are asked for here.
+      RuntimeError: the geometry kernel failed; it raises nothing itself, so its status is asked for here.
     """
     solids = [*blocks, *cutters]
     first = np.cumsum([0] + [len(solid.plane_label) for solid in solids[:-1]])
-    # CSG is lazy: nothing is evaluated before the end (asking for a status on the way costs x100).
+    # CSG is lazy: nothing is evaluated before the end (asking for a status before takes 100 times as long).
     parts = [_manifold(solid, int(start)) for solid, start in zip(solids, first)]
     head = manifold3d.Manifold.batch_boolean(parts[: len(blocks)], manifold3d.OpType.Add)
     result = manifold3d.Manifold.batch_boolean([head, *parts[len(blocks) :]], manifold3d.OpType.Subtract)

@@ -6,10 +6,10 @@
     windows  from the inner face to the pane and from the outer face to it   -> REVEAL and PANE; EXTERIOR
              (what is left between is the glass)
 
-All is subtraction, so every triangle lies on one labelled plane of one solid and normals point into free air. A cutter that
-stops short of a wall's face by 1e-12 m leaves a film, and one that runs on into the room has its floor in the room's floor,
-where either label may win; so openings run on by OVERSHOOT and narrow by INSET on the way. Source: WorldMesh, "Floor Plan
-Generation"; the reveals, panes and labels are ours.
+Everything is subtracted from the block, so every triangle lies on one labelled plane of one solid and normals point into free
+air. A cutter that stops short of a wall's face by 1e-12 m leaves a film, and one that runs on into the room has its floor in the
+room's floor, where either label may win; so openings run on by OVERSHOOT and narrow by INSET on the way. Source: WorldMesh,
+"Floor Plan Generation"; the reveals, panes and labels are ours.
 """
 
 import dataclasses
@@ -37,7 +37,7 @@ def build_structure(plan: FloorPlan) -> Mesh:
     """The watertight, labelled mesh of a plan's walls, floors and ceilings.
 
     The building has one flat roof above its highest ceiling. A door's reveal and threshold belong to the lower-numbered of
-    its two rooms. Same plan, same bytes.
+    its two rooms. Equal plans give equal bytes.
 
     Args:
       plan: a plan that keeps the rules (`parse_plan` returns no other).
@@ -46,7 +46,7 @@ def build_structure(plan: FloorPlan) -> Mesh:
       A closed mesh; `face_room` is OUTSIDE exactly where `face_kind` is EXTERIOR.
 
     Raises:
-      ValueError: a room has no floor, or an opening no place (PlanError).
+      ValueError: a room has no floor, or an opening is not on a wall (PlanError).
       RuntimeError: the geometry kernel failed, or removed another volume than the plan says.
     """
     # Carved about its own corner: far from zero, coordinates are too coarse for faces that should coincide.
@@ -150,7 +150,7 @@ def _sections(portal: Portal, steps: list[tuple[float, float]]) -> np.ndarray:
 
 
 def _check_volume(plan: FloorPlan, vertices, faces, blocks: list[LabelledSolid], rooms: list[LabelledSolid]) -> None:
-    """The kernel fails in silence (facts.md), so its volume is compared with the plan's."""
+    """The kernel can fail without an error, so the volume of its result is compared with the plan's."""
     expected = sum(solid.volume for solid in blocks) - sum(solid.volume for solid in rooms)
     for portal in portals(plan):
         depth = sum(portal.half_depths)

@@ -1,8 +1,8 @@
-"""The laws that a furnished room obeys, checked on its meshes alone: whoever placed the things, and however.
+"""The laws of a furnished room, checked on its meshes alone, so that they judge every way of placing things.
 
-Nothing reaches into another thing by more than LIMIT, nothing floats by more than that, nothing leaves its room, everything
-stands upright within TILT, and a body of 0.25 m radius gets from every door to every other that it could reach in the bare room.
-From above, a thing is the convex outline of its vertices. Nothing here is shared with the placement that is judged.
+No thing reaches into another by more than LIMIT, floats by more than that, leaves its room or leans by more than TILT; and a
+body of 0.25 m radius gets from every door to every other that it could reach in the bare room. Seen from above, a thing is the
+convex outline of its vertices. Nothing here is shared with placement, which is judged by it.
 """
 
 import dataclasses

@@ -1,4 +1,4 @@
-"""Where a visitor can walk: the occupancy grid of a furnished plan and how much of it hangs together.
+"""Where a visitor can walk: the occupancy grid of a furnished plan and the share of it that is connected.
 
 A cell is free if its centre lies on a room's floor or in a door or passage, and not on an object that stands on the floor. Only
 centres are tested, so a wall askew to the grid closes no door of more than two cells. A body of radius r fits where its

@@ -38,7 +38,7 @@ class Occupancy:
         self._together = _reached(self._standing, site.probes)
 
     def add(self, box: UprightBox) -> None:
-        """Takes the place of a box that `allows` has allowed."""
+        """Marks the place of a box as taken; the caller has asked `allows` before."""
         self.boxes.append(box)
         if in_the_way(box.z, box.top):
             self._standing = self._standing.difference(box.footprint.buffer(BODY))
@@ -47,7 +47,8 @@ class Occupancy:
         """Whether a box may stand where it is.
 
         Args:
-          exactly: as it came, with TOLERANCE; otherwise with CLEARANCE to everything, for a new place.
+          exactly: whether to judge the box where it came from, with TOLERANCE; a new place is judged with CLEARANCE to
+          everything.
         """
         corners = shapely.points(box.corners)
         if not bool(shapely.covers(self._room if exactly else self._inner, corners).all()):

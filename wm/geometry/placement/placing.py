@@ -77,7 +77,7 @@ def _classified(thing: SceneObject) -> SceneObject:
     if told == "object" and thing.support == "floor" and abs(low - LIFT) < EXACT:
         told = "floor"  # it found no top before
     elif thing.support == held and held in ("object", "wall") and low > LIFT + EXACT:
-        told = held  # it hangs or stands on something, be it ever so low
+        told = held  # it hangs or stands on something, however low that is
     return dataclasses.replace(upright, support=told)
 
 

@@ -2,7 +2,7 @@
 
     records        FloorPlan, Room, Opening, and the violations of a plan
     layout_json    layout text to records, every syntax fault named
-    rules          what rooms mean together, every broken rule named
+    rules          how rooms fit together, every broken rule named
     loading        load_plan, parse_plan, plan_to_json
     walls          the straight walls and the rooms behind them
     portal         Portal: one opening where it lies in the building

@@ -1,4 +1,4 @@
-"""Reading plan text into records: syntax, types and ranges, every fault named. What rooms mean together is plan_rules'."""
+"""Reading plan text into records: syntax, types and ranges, every fault named. How rooms fit together is checked in rules.py."""
 
 import json
 import re
@@ -10,13 +10,13 @@ from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, 
 
 MAX_BYTES = 8 * 2**20
 MAX_ROOMS = 2048
-MAX_POINTS = 128  # a polygon
-MAX_OPENINGS = 64  # a room
+MAX_POINTS = 128  # per polygon
+MAX_OPENINGS = 64  # per room
 MAX_COORDINATE = 1e4  # metres
-CEILING = (1.8, 50.0)  # metres: below the lowest nobody stands
+CEILING = (1.8, 50.0)  # metres: nobody can stand under a lower ceiling
 WALL = (0.05, 1.0)
 WINDOW_SILL = 0.9  # where a window does not say
-# Ids become folder names (views/<room>/), so nothing that a path could mean.
+# Ids become folder names (views/<room>/), so they hold no character that means something in a path.
 _ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
 _KINDS = ("door", "window", "passage")
 # Least and greatest width and height, metres; a body of 0.25 m radius must pass a door.
@@ -42,7 +42,7 @@ def decode(text: str, source: str) -> Any:
 
 
 def encode(plan: FloorPlan) -> str:
-    """The plan as JSON text: the published layout, numbers exact, same plan same text."""
+    """The plan as JSON text in the published layout; numbers are exact, and equal plans give equal texts."""
     document = {
         "metadata": {
             "units": "meters",
@@ -256,7 +256,7 @@ def _kind(value: Any) -> str:
 
 
 def _show(value: Any) -> str:
-    """A value as a message quotes it: short, whatever it is."""
+    """A value as a message quotes it, cut short where it is long."""
     if isinstance(value, dict) or (isinstance(value, list) and any(isinstance(part, (dict, list)) for part in value)):
         return _kind(value)
     text = json.dumps(value)

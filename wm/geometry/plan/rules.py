@@ -1,6 +1,6 @@
-"""The rules a plan keeps, each with a name; all that are broken are named at once.
+"""The rules of a plan, each with a name; all rules that a plan breaks are reported at once.
 
-First each room on its own, then all rooms that are sound together. Where a room is broken or missing, what depends on it
+Each room is checked on its own first, then all sound rooms together. Where a room is broken or missing, what depends on it
 (doors that may lead there, whether everything can be reached) is not judged.
 """
 
@@ -16,9 +16,9 @@ from wm.geometry.plan.records import FloorPlan, Room, Violation
 from wm.geometry.plan.walls import SHARED, room_polygons
 
 LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius, a little more than a body, to be entered
-LEAST_AREA = 0.01  # square metres; less is no area
+LEAST_AREA = 0.01  # square metres: a polygon of less counts as having no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
-MOST_OVERLAPS = 256  # more are not listed, and nothing else is asked of such a heap
+MOST_OVERLAPS = 256  # more are not listed, and no other rule is checked then
 
 RULES = {
     "file": "The file can be read and is UTF-8 text.",

@@ -16,7 +16,7 @@ UNPAINTED = 0.5  # sRGB grey of charts that no view saw, and of the outer skin
 
 
 def atlas_nodes(atlas: Atlas, mesh: Mesh) -> list[GlbNode]:
-    """One textured node a room, "room <index>", and one of plain grey for faces without a chart, "exterior".
+    """One textured node per room, "room <index>", and one of plain grey for faces without a chart, "exterior".
 
     Args:
       atlas: the texture.

@@ -1,4 +1,4 @@
-"""Small things on surfaces: what belongs on a nightstand, a mantel, a dining table, and where it finds room there."""
+"""Small things on surfaces: what belongs on a nightstand, a mantel or a dining table, and where there is room for it."""
 
 import math
 
@@ -23,10 +23,10 @@ ON: dict[str, tuple[str, ...]] = {
     "altar table": ("candlestick", "flowers", "candlestick"),
     "media bench": ("potted plant", "pile of books"),
 }
-"""What may stand on a kind, in the order in which it is tried."""
+"""What may stand on a kind of furniture, in the order in which it is tried."""
 
 HOW_MANY = {"nightstand": 2, "side table": 1, "coffee table": 2, "round table": 1, "dining table": 3, "desk": 3}
-"""Things on a kind; two where it is not listed."""
+"""How many things stand on a kind; two where it is not listed."""
 
 
 def things_for(kind: str, style: Style, rng: np.random.Generator) -> list[str]:

@@ -1,6 +1,6 @@
 """Functional groups: pieces that belong together, placed around an anchor.
 
-Each returns its anchor, or None where it found no place; companions come as far as there is room for them.
+Each returns its anchor, or None where there was no place for it; companions are added as far as there is room for them.
 """
 
 import math

@@ -158,7 +158,7 @@ def _recolored(albedo: np.ndarray, finish: Finish, pieces: Pieces, face: np.ndar
 def _finish(style: Style, slot: str, color: np.ndarray) -> Finish:
     try:
         return style.slot(slot)
-    except KeyError:  # a slot of somebody else's objects: painted in its own colour
+    except KeyError:  # a slot that the style does not know: painted in the slot's own colour
         return Finish("paint", ((float(color[0]), float(color[1]), float(color[2])),))
 
 

@@ -1,4 +1,4 @@
-"""One room as it looks: its surfaces dressed, its light baked, both put together into textures ready to be looked up."""
+"""The appearance of one room: its surfaces are dressed, its light is baked, and both are put together into textures."""
 
 import dataclasses
 from concurrent.futures import ThreadPoolExecutor
@@ -42,7 +42,7 @@ PER_CELL = 6
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class BakedRoom:
-    """What a renderer needs of a room."""
+    """What a renderer needs to know of a room."""
 
     charts: RoomCharts
     textures: Pyramid  # finished colour of each chart, sRGB

@@ -1,4 +1,13 @@
-"""Procedural materials: what each name of `wm.offline.style.finish.MATERIALS` looks like."""
+"""Procedural materials: what each name of `wm.offline.style.finish.MATERIALS` looks like.
+
+    material_sample  the points at which a material is sampled, and what it gives there
+    wall             plaster, paint, wallpaper, fresco, canvas and paper
+    wood             boards, parquet, panels, paint and lacquer over wood
+    stone            stone, brick, clay, mosaic, concrete
+    cloth            cloth, carpet, leather, rush and cane
+    gears            gear wheels, and the wallpaper of them
+    fittings         metal, glass, mirror, glaze, leaves, soil, wax, light sources
+"""
 
 from wm.offline.style.finish import Finish
 from wm.offline.world.materials import cloth, fittings, gears, stone, wall, wood

@@ -54,6 +54,6 @@ def wax(p: Points, finish: Finish, seed: int) -> MaterialSample:
 
 
 def glow(p: Points, finish: Finish, seed: int) -> MaterialSample:
-    """The body of a light source: its own colour, scarcely modelled."""
+    """The body of a light source: its own colour with little variation."""
     flicker = fbm((p.x, p.y, p.z), wavelength=0.08, octaves=2, footprint=p.footprint, seed=seed)
     return MaterialSample(albedo=vary(ink(finish, 0), 0.06 * flicker), roughness=0.8)

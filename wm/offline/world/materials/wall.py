@@ -107,7 +107,7 @@ def paper(p: Points, finish: Finish, seed: int) -> MaterialSample:
 
 
 def trim_profile(finish: Finish) -> Finish:
-    """The same finish, quieter: what mouldings and skirtings are made of, so that their relief reads."""
+    """The same finish with less contrast, for mouldings and skirtings, so that their relief shows."""
     return dataclasses.replace(finish, contrast=0.5 * finish.contrast)
 
 

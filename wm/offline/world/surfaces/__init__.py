@@ -1,4 +1,12 @@
-"""How a room's structure is dressed: every planar surface as a sheet of texels, before light falls on it."""
+"""How a room's structure is dressed: every planar surface as a sheet of texels, before light falls on it.
+
+    texel_sheet  TexelSheet, and the layers that one is dressed with
+    wall         walls: finish, wainscot, skirting, cornice, casings
+    frieze       the ornamental band below a cornice
+    level        floors and ceilings
+    reveal       jambs, heads and thresholds
+    window       panes
+"""
 
 from wm.geometry.plan.site import WallOpening
 from wm.offline.world.surfaces.level import ceiling_sheet, floor_sheet
@@ -13,7 +21,7 @@ def dress(chart: Chart, openings: tuple[WallOpening, ...], interior: Interior) -
     """The sheet of one surface of a room.
 
     Args:
-      openings: the openings in a wall, in the chart's own metres; of no account for other kinds.
+      openings: the openings in a wall, in the chart's own metres; not used for other kinds of surface.
     """
     if chart.kind == SurfaceKind.WALL:
         return wall_sheet(chart, openings, interior)

@@ -75,7 +75,7 @@ def _meander(s: np.ndarray, t: np.ndarray, tall: float, texel: float) -> np.ndar
     key = np.array([[stroke == "#" for stroke in row] for row in MEANDER])[::-1, :-1]
     stroke = tall / (len(MEANDER) + 2)
     rows, columns = key.shape
-    shares = np.linspace(-0.375, 0.375, 4) * texel  # four samples a texel along each axis, for even edges
+    shares = np.linspace(-0.375, 0.375, 4) * texel  # four samples per texel along each axis, for even edges
     cover = np.zeros(s.shape, F32)
     for a in shares:
         column = np.floor((s + F32(a)) / F32(stroke)).astype(np.int64) % columns
