@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 
 from wm.offline.language.grammar import Settings as LanguageSettings
-from wm.offline.language.programme import kind_of
+from wm.offline.language.programme import room_kind_of
 from wm.run import load_config, options
 from wm.synth.proposing import ProposalError, propose_plan
 from wm.synth.registry import make_backend
@@ -48,8 +48,8 @@ def measure(theme: str, rooms: list[str], seeds: int) -> dict[str, float]:
         areas.append(sum(polygon.area for polygon in polygons))
         shapes.add(proposal.transcript[-1].text)
         for room, polygon in zip(proposal.plan.rooms, polygons):
-            low, high = kind_of(room.name).area
-            if kind_of(room.name).name != "corridor":
+            low, high = room_kind_of(room.name).area
+            if room_kind_of(room.name).name != "corridor":
                 fits.append(0.9 * low <= polygon.area <= 1.1 * high)
     return {
         "rooms": len(rooms),

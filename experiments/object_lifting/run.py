@@ -16,7 +16,7 @@ from shaking import shaken
 from sketch import sketch_of
 
 from wm.geometry import build_structure, navigability
-from wm.geometry.placement.laws import violations
+from wm.geometry.placement.laws import broken_laws
 from wm.geometry.placement.placing import place_objects
 from wm.geometry.plan.site import room_site
 from wm.offline.arrangement.furnishing import furnish_scene
@@ -48,7 +48,7 @@ class Tally:
     def judge(self, context: SceneContext, room: int, things: list[SceneObject]) -> None:
         """Counts a placed room, and says which laws it breaks."""
         self.objects.append(len(things))
-        for law in violations(things, room_site(context.plan, room)):
+        for law in broken_laws(things, room_site(context.plan, room)):
             self.broken[law.law] += 1
             print("BROKEN", context.theme, context.seed, context.plan.rooms[room].name, law.law, law.what, flush=True)
 
@@ -103,7 +103,7 @@ def lifted_rooms(scenes: list[str], count: int, every: int, seed: int, config: L
             rows += found
             tally.unmatched += len(result.things) - int(sum(np.isfinite(row.center_m) for row in found))
             tally.dropped += len(result.placement.dropped)
-            tally.broken_before += len(violations(list(result.things), room_site(context.plan, room)))
+            tally.broken_before += len(broken_laws(list(result.things), room_site(context.plan, room)))
             tally.judge(context, room, result.objects)
             everything += result.objects
         if every == 1:
@@ -121,7 +121,7 @@ def shaken_rooms(scenes: list[str], count: int, seed: int, config: LiftingSettin
             site = room_site(context.plan, room)
             things = shaken(generator.furnish(context, room), np.random.default_rng([context.seed, room, 7]))
             placement = place_objects(things, site)
-            tally.broken_before += len(violations(things, site))
+            tally.broken_before += len(broken_laws(things, site))
             tally.dropped += len(placement.dropped)
             tally.judge(context, room, list(placement.objects))
             everything += placement.objects

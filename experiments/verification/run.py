@@ -17,8 +17,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from wm.geometry import assemble_scene, build_ray_scene, cast, place_cameras
-from wm.geometry.plan.footprint import portals
-from wm.offline.image.violations import KINDS, PLAIN, Violation, draw_violation, violation
+from wm.geometry.plan.openings import portals
+from wm.offline.image.violations import KINDS, PLAIN, ScaffoldViolation, draw_violation, violation
 from wm.offline.world.edit import edited_mesh
 from wm.run import load_config, options
 from wm.schema import RunConfig
@@ -69,14 +69,14 @@ class Scene:
         verify_settings = stage.config.verify
         self.edges = depth_edges(self.gbuffer.depth, self.gbuffer.hit, low=verify_settings.low, high=verify_settings.high)
 
-    def violated(self, kind: str, seed: int) -> Violation | None:
+    def violated(self, kind: str, seed: int) -> ScaffoldViolation | None:
         return violation(kind, self.stage.context, self.view, self.gbuffer, self.thing, np.random.default_rng(seed))
 
-    def drawn(self, config, seed: int) -> Violation | None:
+    def drawn(self, config, seed: int) -> ScaffoldViolation | None:
         rng = np.random.default_rng(np.random.SeedSequence([seed, 0xBAD]))
         return draw_violation(config, self.stage.context, self.view, self.gbuffer, self.thing, rng)
 
-    def judged(self, wrong: Violation | None, seed: int) -> dict:
+    def judged(self, wrong: ScaffoldViolation | None, seed: int) -> dict:
         """One sample: what it is, whether it is a violation by definition, and what the two tests say of it."""
         depth = self.gbuffer.depth
         if wrong is not None:

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from wm.offline.arrangement.programmes import PROGRAMME
 from wm.offline.arrangement.room_type import ROOM_TYPES, room_type
-from wm.offline.language.programme import CIRCULATION, PRIVATE, SERVICE, WET, kind_of
+from wm.offline.language.programme import CIRCULATION, PRIVATE, SERVICE, WET, room_kind_of
 from wm.synth.room_names import CONNECTING, PHRASES, SORTS, WORDS, room_sort
 
 KNOWN = sorted({word for words in WORDS.values() for word in words.split()} | set(PHRASES))
@@ -15,7 +15,7 @@ NAMES = st.lists(st.sampled_from([*KNOWN, "room", "master", "the", "II"]), min_s
 
 @given(NAMES)
 def test_a_room_is_furnished_as_what_it_was_planned_as(name):
-    kind, furnished = kind_of(name), room_type(name)
+    kind, furnished = room_kind_of(name), room_type(name)
     assert ROOM_TYPES[kind.name] == furnished
     assert (kind.zone == WET) == (furnished == "bathroom")
     assert (kind.zone == CIRCULATION) == (room_sort(name) in CONNECTING) <= (furnished in ("corridor", "hall", "gallery"))
@@ -24,7 +24,7 @@ def test_a_room_is_furnished_as_what_it_was_planned_as(name):
 
 
 def test_every_sort_of_room_can_be_planned_and_furnished():
-    assert {kind_of(sort).name for sort in SORTS} == set(SORTS) == set(ROOM_TYPES)
+    assert {room_kind_of(sort).name for sort in SORTS} == set(SORTS) == set(ROOM_TYPES)
     assert set(ROOM_TYPES.values()) == set(PROGRAMME)
 
 
@@ -44,7 +44,7 @@ def test_a_word_speaks_of_one_sort():
     ],
 )  # fmt: skip
 def test_names(name, kind, furnished):
-    assert (kind_of(name).name, room_type(name)) == (kind, furnished)
+    assert (room_kind_of(name).name, room_type(name)) == (kind, furnished)
 
 
 @given(NAMES, NAMES)

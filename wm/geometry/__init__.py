@@ -1,4 +1,14 @@
-"""Plans, structure, cameras, raycasts and texture on the host, in NumPy float64. Nothing heavy is imported before its use."""
+"""Geometry on the host, in NumPy float64. Each package imports only those listed above it.
+
+    plan       floor plans: reading, rules, walls, openings, the free floor
+    mesh       triangle meshes: the building carved from a plan, objects, GLB
+    rays       pinhole cameras, raycasts and G-buffers
+    texture    the texture atlas: images projected into it, its colours read and exported
+    placement  furniture: where it may stand, what it rests on, where people can walk
+    cameras    where views stand, what they see, the walk of the video
+
+embreex is imported with the first ray scene and not before.
+"""
 
 from wm.geometry.cameras.heldout import place_heldout as place_heldout
 from wm.geometry.cameras.sightlines import visible_rooms as visible_rooms
@@ -19,9 +29,7 @@ from wm.geometry.mesh.scene_mesh import object_boxes as object_boxes
 from wm.geometry.mesh.structure import build_structure as build_structure
 from wm.geometry.placement.navigation import Navigability as Navigability
 from wm.geometry.placement.navigation import navigability as navigability
-from wm.geometry.plan.footprint import Portal as Portal
 from wm.geometry.plan.footprint import interior_polygon as interior_polygon
-from wm.geometry.plan.footprint import portals as portals
 from wm.geometry.plan.loading import FloorPlan as FloorPlan
 from wm.geometry.plan.loading import Opening as Opening
 from wm.geometry.plan.loading import PlanError as PlanError
@@ -30,6 +38,8 @@ from wm.geometry.plan.loading import Violation as Violation
 from wm.geometry.plan.loading import load_plan as load_plan
 from wm.geometry.plan.loading import parse_plan as parse_plan
 from wm.geometry.plan.loading import plan_to_json as plan_to_json
+from wm.geometry.plan.openings import portals as portals
+from wm.geometry.plan.portal import Portal as Portal
 from wm.geometry.rays.pinhole import camera_center as camera_center
 from wm.geometry.rays.pinhole import camera_quat as camera_quat
 from wm.geometry.rays.pinhole import camera_rays as camera_rays

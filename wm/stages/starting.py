@@ -13,7 +13,7 @@ from jaxtyping import Float
 from wm.geometry import visible_rooms
 from wm.geometry.cameras.exposed_surface import exposed, room_eyes, room_surface
 from wm.geometry.rays.pinhole import camera_center, project_points
-from wm.geometry.rays.surface_points import SurfacePoints, framed, in_sight, some_points
+from wm.geometry.rays.surface_points import SurfacePoints, in_picture, in_sight, some_points
 from wm.schema import CameraSettings, FitSettings
 from wm.splat.optimization.cloud import Cloud, extended, initial_gaussians, one_a_cell, vacant
 from wm.splat.optimization.training import TrainingView
@@ -69,7 +69,7 @@ def _shown(scene: Scene, room: int, points: SurfacePoints, picture: Picture) -> 
     """The mean colour in which the other rooms' views show each point; NaN where none does."""
     total, times = np.zeros((len(points.face), 3)), np.zeros((len(points.face), 1))
     for view in _onlookers(scene, room):
-        inside = np.flatnonzero(framed(view.camera, points))
+        inside = np.flatnonzero(in_picture(view.camera, points))
         seen = inside[in_sight(scene.rays, points, inside, camera_center(view.camera))]
         if len(seen):
             rgb, usable = picture(view)

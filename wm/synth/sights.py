@@ -4,7 +4,7 @@ import numpy as np
 import shapely
 from jaxtyping import Bool, Float
 
-from wm.geometry.plan.site import Gap, Site
+from wm.geometry.plan.site import Site, WallOpening
 from wm.geometry.rays.pinhole import camera_center, project_points
 from wm.types import Camera
 
@@ -21,21 +21,21 @@ _SLACK = 0.02
 def sights(camera: Camera, site: Site) -> list[str]:
     """One phrase for each opening that lies in the image and is not behind a corner of the room; furniture may yet hide it."""
     found = []
-    for gap in site.gaps:
-        points = _points(gap, site)
+    for wall, opening in site.openings:
+        points = _points(opening, wall, site)
         pixels, depth = project_points(camera, points)
         framed = (depth > _NEAR) & (pixels >= 0).all(axis=1) & (pixels <= [camera.width, camera.height]).all(axis=1)
         seen = framed & _clear(camera_center(camera)[:2], points[:, :2], site.polygon)
         if seen.any():
             across = float(np.mean(pixels[seen, 0] - camera.principal[0]) / camera.focal[0])
             side = "on the left" if across < -_ASIDE else "on the right" if across > _ASIDE else "straight ahead"
-            found.append(f"a {'doorway' if gap.kind == 'door' else gap.kind} {side}")
+            found.append(f"a {'doorway' if opening.kind == 'door' else opening.kind} {side}")
     return found
 
 
-def _points(gap: Gap, site: Site) -> Float[np.ndarray, "n 3"]:
-    along, up = np.linspace(gap.low, gap.high, _POINTS), np.linspace(gap.sill, gap.head, _POINTS)
-    floor = site.starts[gap.wall] + along[:, None] * site.directions[gap.wall]
+def _points(opening: WallOpening, wall: int, site: Site) -> Float[np.ndarray, "n 3"]:
+    along, up = np.linspace(opening.low, opening.high, _POINTS), np.linspace(opening.sill, opening.head, _POINTS)
+    floor = site.starts[wall] + along[:, None] * site.directions[wall]
     return np.concatenate([np.repeat(floor, _POINTS, axis=0), np.tile(up, _POINTS)[:, None]], axis=1)
 
 

@@ -15,7 +15,8 @@ from wm.geometry.cameras.visibility import coverage
 from wm.geometry.cameras.walk import walkthrough
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.mesh.structure import build_structure
-from wm.geometry.plan.footprint import interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import camera_center, camera_rotation
 from wm.geometry.rays.raycast import build_ray_scene, cast_rays, occluded

@@ -14,10 +14,11 @@ from wm.geometry.cameras.sightlines import visible_rooms
 from wm.geometry.cameras.visibility import coverage, reachable_points
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.mesh.structure import build_structure
-from wm.geometry.plan.footprint import interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
 from wm.geometry.rays.pinhole import camera_center, make_camera, unproject_depth
 from wm.geometry.rays.raycast import build_ray_scene, cast
-from wm.geometry.rays.surface_points import framed, in_sight, some_points, surface_points, times_seen
+from wm.geometry.rays.surface_points import in_picture, in_sight, some_points, surface_points, times_seen
 from wm.types import SurfaceKind, View
 
 
@@ -102,7 +103,7 @@ def test_one_view_covers_what_its_gbuffer_shows():
     world = unproject_depth(view.camera, gbuffer.depth.astype(np.float64)).reshape(-1, 3)
     gaps = np.array([np.linalg.norm(world - p, axis=1).min() for p in points.position])
     assert gaps[seen].max() < 0.35 and gaps[seen].mean() < gaps[~seen].mean()
-    inside = framed(view.camera, points)
+    inside = in_picture(view.camera, points)
     np.testing.assert_array_equal(seen[inside], in_sight(scene, points, np.flatnonzero(inside), camera_center(view.camera)))
     assert not seen[~inside].any()
 

@@ -8,7 +8,7 @@ import shapely
 
 from tests.geometry.placement.test_upright_box import rotation
 from tests.geometry.things import box
-from wm.geometry.placement.laws import violations
+from wm.geometry.placement.laws import broken_laws
 from wm.geometry.placement.upright import transformed
 from wm.geometry.plan.site import make_site
 
@@ -28,7 +28,7 @@ def test_a_sound_room_breaks_none():
     vase = held(box((1.5, 1.4, 0.705), (1.6, 1.5, 0.9)), "object")
     picture = held(box((1.3, 1.96, 1.2), (1.9, 1.995, 1.7)), "wall")
     lamp = held(box((1.8, 0.8, 2.0), (2.2, 1.2, 2.498)), "ceiling")
-    assert violations([TABLE, vase, picture, lamp], SITE) == []
+    assert broken_laws([TABLE, vase, picture, lamp], SITE) == []
 
 
 @pytest.mark.parametrize(
@@ -46,8 +46,8 @@ def test_a_sound_room_breaks_none():
     ],
 )  # fmt: skip
 def test_each_law_is_seen_broken(law, things):
-    assert law in {violation.law for violation in violations(things, SITE)}
+    assert law in {broken.law for broken in broken_laws(things, SITE)}
 
 
 def test_half_a_centimetre_is_let_pass():
-    assert violations([TABLE, box((1.995, 1.2, 0.002), (2.6, 1.9, 0.6))], SITE) == []
+    assert broken_laws([TABLE, box((1.995, 1.2, 0.002), (2.6, 1.9, 0.6))], SITE) == []

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from tests.geometry.placement.test_upright_box import rotation
 from tests.geometry.things import box
-from wm.geometry.placement.laws import violations
+from wm.geometry.placement.laws import broken_laws
 from wm.geometry.placement.placing import place_objects
 from wm.geometry.placement.upright import transformed
 from wm.geometry.placement.upright_box import box_of
@@ -61,7 +61,7 @@ def test_placed_rooms_obey_the_laws_and_stay_as_they_are(room, places, seed):
     things = scattered(places, site)
     placement = place_objects(things, site)
     objects = list(placement.objects)
-    assert violations(objects, site) == []
+    assert broken_laws(objects, site) == []
     assert sorted([*placement.source, *(k for k, _ in placement.dropped)]) == list(range(len(things)))
     assert not any(thing.label == "wooden door" for thing in objects)
 
@@ -93,7 +93,7 @@ def test_two_that_overlap_keep_their_sides_and_go_towards_the_walls():
     left, right = box((0.4, 1.5, 0), (1.6, 2.5, 0.8), label="sofa"), box((1.3, 1.6, 0), (2.2, 2.4, 0.8), label="armchair")
     placed = place_objects([left, right], site)
     a, b = centers(placed)
-    assert a[0] < b[0] and violations(list(placed.objects), site) == []
+    assert a[0] < b[0] and broken_laws(list(placed.objects), site) == []
     alone = place_objects([box((0.4, -0.3, 0), (1.6, 0.6, 0.8), label="sofa")], site)
     assert centers(alone)[0][1] == pytest.approx(0.45, abs=0.1)  # out of the wall, not across the room
 
@@ -146,7 +146,7 @@ def test_doors_stay_passable_and_what_shuts_them_is_left_out_with_a_reason():
     door = ("door", np.array([[2.0, 0.0], [2.9, 0.0]]), 0.0, 2.1)
     site = make_site(shapely.box(0, 0, 5, 1.2), 2.7, [door, ("door", np.array([[0.0, 0.1], [0.0, 1.0]]), 0.0, 2.1)])
     placed = place_objects([box((1.0, 0.1, 0), (1.9, 1.1, 0.9), label="armchair")], site)
-    assert violations(list(placed.objects), site) == []
+    assert broken_laws(list(placed.objects), site) == []
     blocked = place_objects([box((0.9, 0.02, 0), (1.3, 1.18, 2.0), label="bookshelf")], make_site(
         shapely.box(0, 0, 2.2, 1.2), 2.7, [door, ("door", np.array([[0.0, 0.1], [0.0, 1.0]]), 0.0, 2.1)]
     ))  # fmt: skip

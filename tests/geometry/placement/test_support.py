@@ -4,7 +4,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from wm.geometry.placement.support import _NOUNS, covers_windows, is_plural, is_structure, support_of, words_of
+from wm.geometry.placement.support import _NOUNS, covers_windows, is_plural, is_structure, singular_words, support_of
 from wm.offline.furniture import KINDS
 
 SIZE = (1.0, 1.0, 1.0)
@@ -30,7 +30,7 @@ def test_the_last_word_makes_a_part_of_the_building(before, noun, several):
 @given(structures, letters, letters, st.sampled_from(("plant", "lamp", "stand", "sofa")))
 def test_a_word_inside_a_word_is_no_word(noun, head, tail, thing):
     for inside in (head + noun, noun + tail, head + noun + tail):
-        assume(words_of(inside)[0] not in (noun, "floor", "wall", "doorway", "standing", "mounted"))
+        assume(singular_words(inside)[0] not in (noun, "floor", "wall", "doorway", "standing", "mounted"))
         assert not is_structure(f"{inside} {thing}")
         assert support_of(f"{inside} {thing}", SIZE) == support_of(thing, SIZE)
 
@@ -74,7 +74,7 @@ def plural(noun: str) -> str:
 
 @pytest.mark.parametrize("noun", nouns)
 def test_several_are_held_as_one_is(noun):
-    assert words_of(plural(noun)) == [noun] and is_plural(plural(noun)) and not is_plural(noun)
+    assert singular_words(plural(noun)) == [noun] and is_plural(plural(noun)) and not is_plural(noun)
     assert support_of(plural(noun), SIZE) == support_of(noun, SIZE)
 
 
@@ -87,7 +87,7 @@ def test_several_are_held_as_one_is(noun):
     ],
 )  # fmt: skip
 def test_plurals_that_are_not_just_an_s_more(several, one):
-    assert words_of(several) == [one] == words_of(one)
+    assert singular_words(several) == [one] == singular_words(one)
 
 
 @given(st.sampled_from(nouns), st.sampled_from([*nouns, "door", "window", "wall", "horse", "fruit", "drawers"]), st.booleans())

@@ -6,8 +6,9 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
+from wm.geometry.placement.clearances import BODY
 from wm.geometry.plan.site import make_site
-from wm.offline.arrangement.floor import BODY, HALF_CELL, WAY, BareFloor
+from wm.offline.arrangement.floor import HALF_CELL, WAY, BareFloor
 
 
 def bare(width=5.0, depth=4.0, *, at=(0.0, 0.0)):

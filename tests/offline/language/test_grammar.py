@@ -12,7 +12,7 @@ from wm.geometry import PlanError, parse_plan
 from wm.offline.language.building import building_of
 from wm.offline.language.grammar import Settings as LanguageSettings
 from wm.offline.language.grammar import make
-from wm.offline.language.programme import kind_of
+from wm.offline.language.programme import room_kind_of
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import make_backend
 
@@ -36,7 +36,7 @@ def test_the_loop_ends_with_a_house_of_the_programme(theme, rooms, seed):
     proposal = propose_plan(GRAMMAR, theme, rooms, seed=seed, max_iterations=8)
     assert proposal.iterations == len(proposal.transcript) <= 8
     assert [room.name for room in proposal.plan.rooms[: len(rooms)]] == rooms
-    assert all(kind_of(room.name).name in ("corridor", "gallery") for room in proposal.plan.rooms[len(rooms) :])
+    assert all(room_kind_of(room.name).name in ("corridor", "gallery") for room in proposal.plan.rooms[len(rooms) :])
 
 
 @hypothesis.given(st.sampled_from(THEMES), programmes, seeds)
@@ -44,7 +44,7 @@ def test_the_loop_ends_with_a_house_of_the_programme(theme, rooms, seed):
 def test_rooms_are_wide_enough_and_those_one_lives_in_have_windows(theme, rooms, seed):
     plan = propose_plan(GRAMMAR, theme, rooms, seed=seed, max_iterations=8).plan
     for room in plan.rooms:
-        kind = kind_of(room.name)
+        kind = room_kind_of(room.name)
         narrowest = 1.3 + plan.wall_thickness if kind.name == "corridor" else 2.0 + 2 * plan.wall_thickness
         shape = shapely.Polygon(room.polygon)
         opened = shape.buffer(-narrowest / 2 + 0.01, join_style="mitre").buffer(narrowest / 2 - 0.01, join_style="mitre")
@@ -59,7 +59,7 @@ def test_most_rooms_have_the_area_of_their_kind():
     for seed in range(12):
         plan = propose_plan(GRAMMAR, "gothic mansion", rooms, seed=seed, max_iterations=8).plan
         for room in plan.rooms:
-            low, high = kind_of(room.name).area
+            low, high = room_kind_of(room.name).area
             inside.append(0.9 * low <= shapely.Polygon(room.polygon).area <= 1.1 * high)
     assert np.mean(inside) >= 0.9
 
@@ -98,7 +98,7 @@ def test_houses_have_l_shaped_rooms_passages_and_footprints_that_are_no_rectangl
     ],
 )  # fmt: skip
 def test_the_last_word_that_names_a_kind_decides(room, kind):
-    assert kind_of(room).name == kind
+    assert room_kind_of(room).name == kind
 
 
 def test_hostile_names_make_valid_ids():

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from wm.geometry.plan.site import WallOpening
 from wm.offline.style.families import FAMILIES
 from wm.offline.style.theme import style_of
-from wm.offline.world.surfaces import Chart, Gap, Interior, dress, grid
+from wm.offline.world.surfaces import Chart, Interior, dress, grid
 from wm.offline.world.surfaces.frieze import frieze
-from wm.offline.world.surfaces.sheet import lay
+from wm.offline.world.surfaces.texel_sheet import lay
 from wm.types import SurfaceKind
 
 KINDS = [SurfaceKind.WALL, SurfaceKind.FLOOR, SurfaceKind.CEILING, SurfaceKind.REVEAL, SurfaceKind.PANE]
@@ -33,10 +34,10 @@ def chart(kind: SurfaceKind, texel: float = 0.04) -> Chart:
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_family_dresses_every_surface(family, kind):
-    gaps = (Gap("door", 0.5, 1.4, 0.0, 2.0), Gap("window", 2.2, 3.4, 0.9, 2.1))
+    openings = (WallOpening("door", 0.5, 1.4, 0.0, 2.0), WallOpening("window", 2.2, 3.4, 0.9, 2.1))
     flat = chart(kind)
     for room in ("living", "hall"):
-        sheet = dress(flat, gaps, interior(family, room))
+        sheet = dress(flat, openings, interior(family, room))
         assert sheet.albedo.shape == (3, *flat.shape)
         assert np.isfinite(sheet.albedo).all()
         assert sheet.albedo.min() >= 0
@@ -50,7 +51,8 @@ def test_every_family_dresses_every_surface(family, kind):
 
 def test_a_door_gets_a_raised_casing():
     inside = interior("coastal")  # a style without panels, which would divide the wall anew
-    bare, cased = (dress(chart(SurfaceKind.WALL), gaps, inside) for gaps in ((), (Gap("door", 1.5, 2.5, 0.0, 2.0),)))
+    door = WallOpening("door", 1.5, 2.5, 0.0, 2.0)
+    bare, cased = (dress(chart(SurfaceKind.WALL), openings, inside) for openings in ((), (door,)))
     column = int(1.45 / 0.04)
     assert cased.height[40, column] > bare.height[40, column] + 0.01
     np.testing.assert_array_equal(cased.albedo[:, :, -5], bare.albedo[:, :, -5])  # far from the door nothing changes
@@ -71,7 +73,8 @@ def test_a_frieze_runs_below_the_cornice_and_nowhere_else(theme):
 
 def test_doors_of_ornate_styles_stand_under_a_cap():
     inside = interior("roman")
-    bare, capped = (dress(chart(SurfaceKind.WALL), gaps, inside) for gaps in ((), (Gap("door", 1.5, 2.5, 0.0, 2.0),)))
+    door = WallOpening("door", 1.5, 2.5, 0.0, 2.0)
+    bare, capped = (dress(chart(SurfaceKind.WALL), openings, inside) for openings in ((), (door,)))
     row, column = int(2.17 / 0.04), int(2.0 / 0.04)
     assert capped.height[row, column] > bare.height[row, column] + 0.02
 

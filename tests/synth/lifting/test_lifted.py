@@ -12,7 +12,7 @@ from tests.synth.lifting.scenes import STYLE, bare, piece
 from tests.synth.recording import Recording, recorded, recording
 from wm.geometry.cameras.views import bootstrap_cameras
 from wm.geometry.mesh.scene_mesh import assemble_scene
-from wm.geometry.placement.laws import violations
+from wm.geometry.placement.laws import broken_laws
 from wm.geometry.placement.upright import transformed
 from wm.geometry.placement.upright_box import box_iou, box_of
 from wm.geometry.plan.site import room_site
@@ -113,7 +113,7 @@ def test_photographs_with_depth_and_masks_are_lifted_without_knowing_what_was_dr
 
 def test_the_room_obeys_the_laws():
     room = lifted()
-    assert violations(room.objects, room_site(bare().plan, 1)) == []
+    assert broken_laws(room.objects, room_site(bare().plan, 1)) == []
 
 
 def shape(thing):

@@ -1,10 +1,10 @@
 """Where planned cameras look: each position is given several possible views, and one of each is picked so that together they
 see as much of the room's surface as often as possible.
 
-Greedy: again and again the position and view that add most; then each position chooses anew, given the others. A surface
-point is worth VALUES[k] to the view that is the (k + 1)-th to see it, so unseen surface comes first, and seen three times is
-what is aimed for (texture and splats want parallax). The sum is submodular, so the greedy choice reaches at least half of the
-best possible (Fisher, Nemhauser and Wolsey, 1978), and choosing anew only adds to it.
+The choice is greedy: the position and view that add most are picked, one after the other; then each position chooses again, given
+the others. A surface point is worth VALUES[k] to the view that is the (k + 1)-th to see it, so unseen surface comes first, and
+seen three times is what is aimed for (texture and splats want parallax). The sum is submodular, so the greedy choice reaches at
+least half of the best possible (Fisher, Nemhauser and Wolsey, 1978), and choosing again only adds to it.
 """
 
 import dataclasses
@@ -18,7 +18,7 @@ from wm.geometry.rays.raycast import RayScene
 from wm.geometry.rays.surface_points import SurfacePoints, in_sight
 
 VALUES = np.array([1.0, 0.15, 0.08, 0.01])
-"""Of the first, second, third and any further view of a point."""
+"""What the first, second, third and any further view of a point add."""
 _SWEEPS = 2
 """Times each position chooses again, once the others have chosen."""
 
@@ -66,9 +66,7 @@ def _worth(times: Int[np.ndarray, "p"]) -> Float[np.ndarray, "p"]:
     return VALUES[np.minimum(times, len(VALUES) - 1)].astype(np.float32)
 
 
-def _masks(
-    scene: RayScene, points: SurfacePoints, aims: Aims, half_extent: tuple[float, float]
-) -> Float[np.ndarray, "k p"]:
+def _masks(scene: RayScene, points: SurfacePoints, aims: Aims, half_extent: tuple[float, float]) -> Float[np.ndarray, "k p"]:
     """1 where a view sees a point, else 0 (floats, for the sums are matrix products); views at one place share shadow rays."""
     places, place = np.unique(aims.eyes, axis=0, return_inverse=True)
     seen = np.zeros((len(aims.eyes), len(points.face)), np.float32)

@@ -21,13 +21,15 @@ from wm.geometry.rays.raycast import RayScene, cast_rays
 from wm.schema import CameraSettings
 from wm.types import Camera
 
+FACE = 0.1
+"""Metres of free air around the eye of a visitor; a camera wants more (CameraSettings.clearance), to see past what is near."""
 _DIRECTIONS = 96
-"""Rays a probe: 0.36 rad apart, so that at half the usual clearance of 0.3 m nothing wider than 6 cm slips through."""
+"""Rays per probe: 0.36 rad apart, so that at half the usual clearance of 0.3 m nothing wider than 6 cm slips through."""
 _INSIDE = 0.3
 """Share of rays that meet backs of faces from which a point counts as inside a solid: 1 in a box, less where solids overlap,
 and about 0 in a room with a few open sheets (a curtain, a sail)."""
 _SPOTS = 600
-"""Grid points a room and height at most: 0.18 m apart in a room of 20 m^2."""
+"""At most this many grid points per room and height: 0.18 m apart in a room of 20 m^2."""
 _SAMPLES = 200
 """Floor points that stand for the room's area when it is asked what a camera sees of it."""
 _THUMBNAIL = 24
@@ -112,7 +114,7 @@ def candidates(air: RoomAir, wanted: Float[np.ndarray, "3"]) -> Float[np.ndarray
 def look_point(air: RoomAir, position: Float[np.ndarray, "2"]) -> Float[np.ndarray, "2"]:
     """The middle of the floor that is in line of sight over the furniture: in a convex room, its centre from anywhere.
 
-    Where that is underfoot, the farthest floor in sight instead.
+    Where that point is under the camera, the farthest floor in sight is taken instead.
     """
     lines = shapely.linestrings(np.stack([np.broadcast_to(position, air.samples.shape), air.samples], axis=1))
     seen = air.samples[shapely.covers(air.floor, lines)]
@@ -144,7 +146,7 @@ def sphere_directions(count: int) -> Float[np.ndarray, "r 3"]:
 
 
 def floor_grid(area: BaseGeometry, count: int) -> Float[np.ndarray, "n 2"]:
-    """[n, 2]: about `count` points of a square grid in the area, at most 10 to the metre; the innermost one where none fits."""
+    """[n, 2]: about `count` points of a square grid in the area, at most 10 per metre; its innermost point where none fits."""
     if area.is_empty:
         return np.zeros((0, 2))
     step = max(0.1, (area.area / count) ** 0.5)

@@ -1,6 +1,6 @@
 """The exposed surface of a room: what an eye may see from anywhere in its free air, or through one of its doors.
 
-Whatever a camera outside a room sees of it, it sees through a doorway. So eyes in the room's air and in its doorways stand for
+A camera outside a room sees it only through a doorway. So eyes in the room's air and in its doorways stand for
 all cameras of the scene, and the exposed surface of a room costs the same however many rooms there are.
 
 Tiers of work: per room the eyes; per eye the shadow rays of the points that face it and that no eye before has seen.
@@ -11,9 +11,9 @@ import dataclasses
 import numpy as np
 from jaxtyping import Bool, Float
 
-from wm.geometry.cameras.air import RoomAir, free, room_air
+from wm.geometry.cameras.air import FACE, RoomAir, free, room_air
 from wm.geometry.mesh.scene_mesh import face_crosses
-from wm.geometry.plan.footprint import portals
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.raycast import RayScene
 from wm.geometry.rays.surface_points import SurfacePoints, in_sight, surface_points
@@ -21,11 +21,10 @@ from wm.schema import CameraSettings
 from wm.types import OUTSIDE, Mesh
 
 _LOW = 0.9  # metres: the lowest eyes, those of views close to furniture
-_EYES = 8  # a room and height, evenly over its floor
-_FACE = 0.1  # metres of free air around an eye
+_EYES = 8  # per room and height, evenly over its floor
 _ACROSS = (0.15, 0.5, 0.85)  # where eyes stand in a doorway, as shares of its width
 _A_CELL = 3.0
-"""Points for every cell's area: a cell is then missed one time in twenty if they fell at random, and less often in R2's order."""
+"""Points per area of a cell: points that fell at random would then miss one cell in twenty; the R2 sequence misses fewer."""
 
 
 def room_surface(mesh: Mesh, room: int, *, spacing: float, detail_spacing: float) -> SurfacePoints:
@@ -58,7 +57,7 @@ def room_eyes(plan: FloorPlan, scene: RayScene, room: int, settings: CameraSetti
         _in_doorway(portal.ends, height)
         for portal in portals(plan)
         if portal.kind != "window" and room in portal.rooms
-        for height in (_LOW, min(air.eye_height, portal.head - _FACE))
+        for height in (_LOW, min(air.eye_height, portal.head - FACE))
     ]
     return np.concatenate([*inside, *doors])
 
@@ -73,9 +72,9 @@ def exposed(scene: RayScene, points: SurfacePoints, eyes: Float[np.ndarray, "n 3
 
 
 def _spread(air: RoomAir, height: float) -> Float[np.ndarray, "n 3"]:
-    """Up to _EYES free points of the room at a height: again and again the one farthest from those there are."""
+    """Up to _EYES free points of the room at a height, each the one farthest from those before it."""
     spots = np.column_stack([air.samples, np.full(len(air.samples), height)])
-    spots = spots[free(air.scene, spots, _FACE)]
+    spots = spots[free(air.scene, spots, FACE)]
     chosen = spots[:1]
     while len(chosen) < min(_EYES, len(spots)):
         gap = np.linalg.norm(spots[:, None] - chosen, axis=-1).min(axis=1)

@@ -1,9 +1,9 @@
-"""Held-out views: never trained on, and placed where training views do not vouch for the scene (design.md, section 6).
+"""Held-out views: never trained on, and placed where no training view stands (design.md, section 6).
 
     between   half-way between consecutive training views of a kind, looking half-way between where they look
     close     0.6 to 1.2 m from an object, looking at it
     door      a step before a door, looking through it into the room
-Of a room's views a quarter are close and a quarter through doors, as far as it has objects and doors; the rest lie between.
+A quarter of a room's views are close and a quarter look through doors, as far as it has objects and doors; the rest are between.
 """
 
 import itertools
@@ -14,7 +14,7 @@ import shapely
 
 from wm.geometry.cameras.air import RoomAir, candidates, free, openness, room_air
 from wm.geometry.cameras.views import depth_wanted, door_camera, make_view_camera
-from wm.geometry.plan.footprint import portals
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import camera_center, camera_rotation
 from wm.geometry.rays.raycast import RayScene, occluded, ray_scene

@@ -12,7 +12,9 @@ import numpy as np
 import shapely
 from jaxtyping import Bool
 
-from wm.geometry.plan.footprint import Portal, interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import camera_center, camera_rotation
 from wm.types import Camera, Mesh, View

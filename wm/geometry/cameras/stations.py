@@ -8,7 +8,7 @@ from wm.geometry.cameras.air import RoomAir
 
 
 def walk_line(air: RoomAir, start: Float[np.ndarray, "2"], count: int, phase: float) -> Float[np.ndarray, "n 2"]:
-    """`count` points along the walls, `air.offset` inside them, evenly by arc length; the first `phase` steps after `start`."""
+    """`count` points along the walls, `air.offset` inside them, evenly by arc length, the first `phase` steps after `start`."""
     walk = air.floor.buffer(-air.offset, join_style="mitre")
     rings = list(shapely.get_exterior_ring(shapely.get_parts(walk))) or [air.floor.representative_point()]
     longest = max(rings, key=lambda ring: ring.length)

@@ -20,7 +20,8 @@ from jaxtyping import Float
 from wm.geometry.cameras.aim import Aims, choose_aims
 from wm.geometry.cameras.air import RoomAir, candidates, free, look_point, openness, room_air
 from wm.geometry.cameras.stations import short_sides, walk_line
-from wm.geometry.plan.footprint import Portal, portals
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import camera_center, camera_rotation, make_camera
 from wm.geometry.rays.raycast import RayScene, ray_scene
@@ -29,16 +30,16 @@ from wm.schema import CameraSettings
 from wm.types import Camera, Mesh, View
 
 MEDIAN_DEPTH = 0.8  # metres a view should see (`openness`); less in rooms narrower than that
-_BOOTSTRAP = 2.0  # times that for a bootstrap view: the whole room is imagined from it
+_BOOTSTRAP = 2.0  # a bootstrap view should see this many times as far: the whole room is imagined from it
 TURN = 30.0  # degrees to either side of the middle that a perimeter or overhead view may look
 LOWER = 0.5  # metres below eye level at which a perimeter view may stand: what is under shelves is seen from there only
 _TILTS = (-30.0, -15.0, 0.0, 15.0, 30.0)  # degrees of a perimeter view above the horizon
 _OVERHEAD_TILTS = (-45.0, -30.0)
-_TRIES = 24  # positions judged by their picture
-_APART = 0.15  # metres between two cameras of a kind
+_TRIES = 24  # positions of which a small picture is rendered and judged
+_APART = 0.15  # metres between two training cameras of one kind; held-out views keep 0.1 m from all of them
 _REACH = 1.5  # metres around a wanted position taken by furniture within which its view may stand
-_PLACES = 8  # positions there
-_POINTS = 2000  # surface points a room by which views are picked
+_PLACES = 8  # positions within _REACH that are offered
+_POINTS = 2000  # surface points per room by which views are picked
 _DEFAULTS = CameraSettings()
 
 
@@ -47,7 +48,7 @@ def place_cameras(plan: FloorPlan, mesh: Mesh | RayScene, settings: CameraSettin
 
     Args:
         plan: a valid plan.
-        mesh: its structure, with or without objects; a RayScene of it saves building another.
+        mesh: its structure, with or without objects; give a RayScene where there is one, so that it is not built again.
         settings: numbers and sizes of the views.
 
     Raises: InputError if a room has no free spot for a camera, naming the room and why.
@@ -112,7 +113,8 @@ def make_view_camera(eye: Float[np.ndarray, "3"], target: Float[np.ndarray, "3"]
 
 
 def door_camera(air: RoomAir, portal: Portal, settings: CameraSettings, *, step: float) -> Camera | None:
-    """A camera in the middle of a door, looking into the room; nudged into the room by up to 1 m (None: that is not free).
+    """A camera in the middle of a door, looking into the room; moved into the room by up to 1 m; None where none of these places
+    is free.
 
     Args:
         step: metres by which it stands before (behind, if negative) the middle of the wall, seen from inside the room.
@@ -200,7 +202,7 @@ def _options(air: RoomAir, start: np.ndarray, settings: CameraSettings, kind: st
 
 
 def _level(air: RoomAir, drop: float = 0.0) -> Callable[[np.ndarray], np.ndarray]:
-    """From a position, its look point, as high or `drop` lower."""
+    """The look point of a position, at its height or `drop` metres lower."""
     return lambda spot: np.append(look_point(air, spot[:2]), spot[2] - drop)
 
 

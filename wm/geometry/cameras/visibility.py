@@ -13,8 +13,9 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float
 
-from wm.geometry.cameras.air import floor_grid, free
-from wm.geometry.placement.navigation import BODY, body_floor, object_corners
+from wm.geometry.cameras.air import FACE, floor_grid, free
+from wm.geometry.placement.clearances import BODY
+from wm.geometry.placement.navigation import body_floor, object_corners
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.raycast import RayScene, ray_scene
@@ -24,8 +25,7 @@ from wm.types import Mesh, View
 _POINTS = 20_000
 """Surface points: a share near 0.97 is then known to about 0.001."""
 _EYES = (1.2, 1.6)  # metres above the floor: a visitor sitting, a visitor standing
-_FACE = 0.1  # metres of free air around an eye
-_PROBES = 40  # a room and height
+_PROBES = 40  # per room and height
 
 
 @dataclasses.dataclass(frozen=True)
@@ -72,7 +72,7 @@ def _probes(plan: FloorPlan, scene: RayScene) -> list[Float[np.ndarray, "n 3"]]:
     probes = []
     for index, room in enumerate(plan.rooms):
         grid = floor_grid(interior_polygon(plan, index).intersection(body), _PROBES)
-        eyes = [np.column_stack([grid, np.full(len(grid), height)]) for height in _EYES if height + _FACE < room.ceiling_height]
+        eyes = [np.column_stack([grid, np.full(len(grid), height)]) for height in _EYES if height + FACE < room.ceiling_height]
         points = np.concatenate([*eyes, np.zeros((0, 3))])
-        probes.append(points[free(scene, points, _FACE)])
+        probes.append(points[free(scene, points, FACE)])
     return probes

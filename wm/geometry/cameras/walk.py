@@ -2,7 +2,7 @@
 
     route    the free floor of a body (walls and objects moved out by its radius) as a grid; shortest paths on it (Dijkstra)
              from room to nearest unvisited room, pulled straight where nothing is in the way
-    walk     one position a frame at walking speed, smoothed in time; looking LOOK_AHEAD metres ahead along the route
+    walk     one position per frame at walking speed, smoothed in time; looking LOOK_AHEAD metres ahead along the route
     glance   in each room the walker stops at its most open spot and turns, the long way, to where it goes on
 
 Smoothing cuts corners by less than the body's radius or is weakened until it does, so the walk stays in free air.
@@ -19,18 +19,19 @@ from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
 from wm.errors import InputError
+from wm.geometry.placement.clearances import BODY
 from wm.geometry.placement.navigation import body_floor, cells_inside, object_corners, walkable_floor
-from wm.geometry.plan.footprint import interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import make_camera
 from wm.schema import CameraSettings
 from wm.types import Camera, Mesh
 
-RADIUS = 0.25  # metres of free floor around the walker
 LOOK_AHEAD = 0.9  # metres
-TURNING = 75.0  # degrees a second in a glance
-_HEADROOM = 0.25  # metres of free air above and below the eye
-_CELL = 0.1  # metres of the route's grid
+TURNING = 75.0  # degrees per second while the walker looks around
+_AIR = 0.25  # metres of free air above and below the eye
+_CELL = 0.1  # metres of the route's grid: finer than navigation's, because positions are read from it and not only counted
 _SMOOTHING = 0.35  # seconds: standard deviation of the filter over positions and headings
 _PITCH = -4.0  # degrees: a walker looks a little down
 _DEFAULTS = CameraSettings()
@@ -47,10 +48,8 @@ class _Floor:
     radius: float
 
 
-def walkthrough(
-    plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS, *, fps: int, speed: float
-) -> list[Camera]:
-    """One camera a frame, from the first room through the doors into every other, with a look around in each.
+def walkthrough(plan: FloorPlan, mesh: Mesh, settings: CameraSettings = _DEFAULTS, *, fps: int, speed: float) -> list[Camera]:
+    """One camera per frame, from the first room through the doors into every other, with a look around in each.
 
     Args:
         plan, mesh: as for `place_cameras`.
@@ -62,7 +61,7 @@ def walkthrough(
     if not (fps > 0 and speed > 0):
         raise ValueError(f"a walk needs frames and a speed above 0, not fps {fps}, speed {speed}")
     doors = [portal.head for portal in portals(plan) if portal.kind != "window"]
-    height = min(settings.eye_height, *(room.ceiling_height - _HEADROOM for room in plan.rooms), *(h - _HEADROOM for h in doors))
+    height = min(settings.eye_height, *(room.ceiling_height - _AIR for room in plan.rooms), *(h - _AIR for h in doors))
     floor = _walkable(plan, mesh, height)
     legs = _route(floor)
     positions, headings = _walk(legs, fps, speed)
@@ -76,12 +75,12 @@ def walkthrough(
 
 
 def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
-    """The widest floor that joins all rooms: around all furniture, else a slimmer walker, else over low furniture too."""
+    """The floor of the widest walker who gets into all rooms: around all furniture, else slimmer, else over low furniture too."""
     things = object_corners(mesh)
-    tall = [corners for corners in things if corners[..., 2].max() > height - _HEADROOM]
+    tall = [corners for corners in things if corners[..., 2].max() > height - _AIR]
     unreached = []
-    for radius, obstacles in ((RADIUS, things), (0.6 * RADIUS, things), (RADIUS, tall), (0.4 * RADIUS, tall)):
-        area = body_floor(plan, obstacles, height=height + _HEADROOM, radius=radius)
+    for radius, obstacles in ((BODY, things), (0.6 * BODY, things), (BODY, tall), (0.4 * BODY, tall)):
+        area = body_floor(plan, obstacles, height=height + _AIR, radius=radius)
         floor = _grid(plan, area, radius)
         if floor is None:
             continue
@@ -90,7 +89,7 @@ def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
         if not unreached:
             return floor
     names = ", ".join(unreached) or "any room"
-    raise InputError(f"no walk into {names}: a walker {0.8 * RADIUS:.2f} m wide finds doors blocked or no free floor")
+    raise InputError(f"no walk into {names}: a walker {0.8 * BODY:.2f} m wide finds doors blocked or no free floor")
 
 
 def _grid(plan: FloorPlan, area: BaseGeometry, radius: float) -> _Floor | None:
@@ -131,9 +130,7 @@ def _route(floor: _Floor) -> list[np.ndarray]:
     """Polylines [k, 2] from stop to stop, always to the nearest room not yet visited."""
     left, here, legs = set(range(1, len(floor.stops))), 0, []
     while left:
-        distance, previous = scipy.sparse.csgraph.dijkstra(
-            floor.graph, indices=int(floor.stops[here]), return_predecessors=True
-        )
+        distance, previous = scipy.sparse.csgraph.dijkstra(floor.graph, indices=int(floor.stops[here]), return_predecessors=True)
         there = min(left, key=lambda room: (distance[floor.stops[room]], room))
         path = [int(floor.stops[there])]
         while path[-1] != floor.stops[here]:
@@ -145,7 +142,7 @@ def _route(floor: _Floor) -> list[np.ndarray]:
 
 
 def _straighten(area: BaseGeometry, path: np.ndarray) -> np.ndarray:
-    """The path with every detour left out that a straight line within the area makes needless."""
+    """The path with its detours replaced by straight lines wherever those stay within the area."""
     kept, k = [0], 0
     while k < len(path) - 1:
         ahead = np.arange(len(path) - 1, k, -1)

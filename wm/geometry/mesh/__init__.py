@@ -1,9 +1,9 @@
 """Triangle meshes of a scene: the structure carved from solids, objects added to it, and both written to files.
 
-    scene_mesh     assemble_scene, check_mesh, normals and boxes
-    solids         labelled solids and what is carved with them
-    slivers        triangles without height removed
-    structure      build_structure: the watertight building
-    object_colors  base colours at points of objects
-    glb            save_glb
+    scene_mesh       assemble_scene, check_mesh, normals and boxes
+    labelled_solids  solids with a label on every plane, and how they are carved
+    slivers          triangles without height removed
+    structure        build_structure: the watertight building
+    object_colors    base colours at points of objects
+    glb              save_glb
 """

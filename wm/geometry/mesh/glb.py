@@ -1,4 +1,4 @@
-"""Writing GLB (glTF 2.0, binary): metres, right way up, one node per thing, same nodes same bytes.
+"""Writing GLB (glTF 2.0, binary): in metres, y up, one node per object; equal nodes give equal bytes.
 
 glTF is y-up and we are z-up: (x, y, z) becomes (x, z, -y). Colours are sRGB here and linear in glTF's factors; textures are
 sRGB in both, embedded as PNG, sampled with CLAMP_TO_EDGE so that charts do not bleed around the atlas. Normals are left out:

@@ -93,7 +93,7 @@ def _boxed(thing: SceneObject) -> SceneObject:
 
 
 def check_mesh(mesh: Mesh, name: str = "mesh") -> None:
-    """Makes sure that a mesh can be cast against: ray tracers never hit a broken triangle, and say nothing.
+    """Makes sure that rays can be cast against a mesh: ray tracers silently never hit a broken triangle.
 
     Raises:
       ValueError: a coordinate is not finite, an index is out of range, an array has another shape or length than the rest,

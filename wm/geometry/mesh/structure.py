@@ -6,10 +6,10 @@
     windows  from the inner face to the pane and from the outer face to it   -> REVEAL and PANE; EXTERIOR
              (what is left between is the glass)
 
-All is subtraction, so every triangle lies on one labelled plane of one solid and normals point into free air. A cutter that
-stops short of a wall's face by 1e-12 m leaves a film, and one that runs on into the room has its floor in the room's floor,
-where either label may win; so openings run on by OVERSHOOT and narrow by INSET on the way. Source: WorldMesh, "Floor Plan
-Generation"; the reveals, panes and labels are ours.
+Everything is subtracted from the block, so every triangle lies on one labelled plane of one solid and normals point into free
+air. A cutter that stops short of a wall's face by 1e-12 m leaves a film, and one that runs on into the room has its floor in the
+room's floor, where either label may win; so openings run on by OVERSHOOT and narrow by INSET on the way. Source: WorldMesh,
+"Floor Plan Generation"; the reveals, panes and labels are ours.
 """
 
 import dataclasses
@@ -18,9 +18,11 @@ import numpy as np
 import shapely
 from shapely.geometry import Polygon
 
+from wm.geometry.mesh.labelled_solids import LabelledSolid, carve, polygon_rings, prism, tunnel
 from wm.geometry.mesh.slivers import flip_slivers
-from wm.geometry.mesh.solids import Solid, carve, polygon_rings, prism, tunnel
-from wm.geometry.plan.footprint import Portal, interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.plan.walls import SHARED, room_polygons
 from wm.types import OUTSIDE, Mesh, SurfaceKind
@@ -35,7 +37,7 @@ def build_structure(plan: FloorPlan) -> Mesh:
     """The watertight, labelled mesh of a plan's walls, floors and ceilings.
 
     The building has one flat roof above its highest ceiling. A door's reveal and threshold belong to the lower-numbered of
-    its two rooms. Same plan, same bytes.
+    its two rooms. Equal plans give equal bytes.
 
     Args:
       plan: a plan that keeps the rules (`parse_plan` returns no other).
@@ -44,7 +46,7 @@ def build_structure(plan: FloorPlan) -> Mesh:
       A closed mesh; `face_room` is OUTSIDE exactly where `face_kind` is EXTERIOR.
 
     Raises:
-      ValueError: a room has no floor, or an opening no place (PlanError).
+      ValueError: a room has no floor, or an opening is not on a wall (PlanError).
       RuntimeError: the geometry kernel failed, or removed another volume than the plan says.
     """
     # Carved about its own corner: far from zero, coordinates are too coarse for faces that should coincide.
@@ -88,14 +90,14 @@ def outline(plan: FloorPlan) -> Polygon | shapely.MultiPolygon:
     return shapely.simplify(closed, 1e-7)
 
 
-def _blocks(plan: FloorPlan) -> list[Solid]:
+def _blocks(plan: FloorPlan) -> list[LabelledSolid]:
     top = max(room.ceiling_height for room in plan.rooms) + SLAB
     return [
         prism(polygon_rings(part), -SLAB, top, bottom=_SKIN, top=_SKIN, side=_SKIN) for part in shapely.get_parts(outline(plan))
     ]
 
 
-def _rooms(plan: FloorPlan) -> list[Solid]:
+def _rooms(plan: FloorPlan) -> list[LabelledSolid]:
     solids = []
     for index, room in enumerate(plan.rooms):
         rings = polygon_rings(interior_polygon(plan, index))
@@ -104,14 +106,14 @@ def _rooms(plan: FloorPlan) -> list[Solid]:
     return solids
 
 
-def _openings(plan: FloorPlan) -> list[Solid]:
+def _openings(plan: FloorPlan) -> list[LabelledSolid]:
     solids = []
     for portal in portals(plan):
         solids.extend(_window(portal) if portal.kind == "window" else [_door(portal)])
     return solids
 
 
-def _door(portal: Portal) -> Solid:
+def _door(portal: Portal) -> LabelledSolid:
     """From face to face, and on into the free air of both rooms."""
     floor, reveal = _label(portal.rooms[0], SurfaceKind.FLOOR), _label(portal.rooms[0], SurfaceKind.REVEAL)
     first, last = -portal.half_depths[0], portal.half_depths[1]
@@ -119,7 +121,7 @@ def _door(portal: Portal) -> Solid:
     return tunnel(_sections(portal, steps), bottom=floor, side=reveal, first=reveal, last=reveal)
 
 
-def _window(portal: Portal) -> list[Solid]:
+def _window(portal: Portal) -> list[LabelledSolid]:
     """The recess in the room and the recess outside, with the pane between them."""
     first, last = -portal.half_depths[0], portal.half_depths[1]
     glass = min(PANE, (last - first) / 4) / 2
@@ -147,8 +149,8 @@ def _sections(portal: Portal, steps: list[tuple[float, float]]) -> np.ndarray:
     return np.array(sections)
 
 
-def _check_volume(plan: FloorPlan, vertices, faces, blocks: list[Solid], rooms: list[Solid]) -> None:
-    """The kernel fails in silence (facts.md), so its volume is compared with the plan's."""
+def _check_volume(plan: FloorPlan, vertices, faces, blocks: list[LabelledSolid], rooms: list[LabelledSolid]) -> None:
+    """The kernel can fail without an error, so the volume of its result is compared with the plan's."""
     expected = sum(solid.volume for solid in blocks) - sum(solid.volume for solid in rooms)
     for portal in portals(plan):
         depth = sum(portal.half_depths)

@@ -2,7 +2,8 @@
 
     placing        place_objects: reconstructed things become furniture
     laws           the laws of a furnished room, checked on meshes
-    occupancy      what of a room is taken
+    clearances     the metres that furniture keeps; why "may this stand here?" has two engines
+    occupancy      what of a room is taken, and whether one more measured box may stand there
     stacking       one thing on another
     support        what a thing rests on, told by its label
     upright        setting things upright and moving them

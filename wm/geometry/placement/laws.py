@@ -1,8 +1,8 @@
-"""The laws that a furnished room obeys, checked on its meshes alone: whoever placed the things, and however.
+"""The laws of a furnished room, checked on its meshes alone, so that they judge every way of placing things.
 
-Nothing reaches into another thing by more than LIMIT, nothing floats by more than that, nothing leaves its room, everything
-stands upright within TILT, and a body of 0.25 m radius gets from every door to every other that it could reach in the bare room.
-From above, a thing is the convex outline of its vertices. Nothing here is shared with the placement that is judged.
+No thing reaches into another by more than LIMIT, floats by more than that, leaves its room or leans by more than TILT; and a
+body of 0.25 m radius gets from every door to every other that it could reach in the bare room. Seen from above, a thing is the
+convex outline of its vertices. Nothing here is shared with placement, which is judged by it.
 """
 
 import dataclasses
@@ -21,7 +21,7 @@ from wm.types import Mesh, SceneObject
 LIMIT = 0.01
 """Metres."""
 TILT = math.radians(1.0)
-_BODY, _HEADROOM = 0.25, 1.8  # those of navigation, said again: see above
+_BODY, _HEADROOM = 0.25, 1.8  # as in clearances.py, stated again: a slip there must not pass here
 _CELL = 0.05
 _HELD = 1 / 3
 """Share of the points under a thing that must find something within LIMIT below them."""
@@ -32,8 +32,8 @@ _EMPTY = Mesh(
 
 
 @dataclasses.dataclass(frozen=True)
-class Violation:
-    """A law broken, by what, and how far."""
+class BrokenLaw:
+    """One law that a room breaks, and what breaks it."""
 
     law: str  # interpenetrates | floats | leaves | tilts | blocks
     what: str
@@ -46,23 +46,23 @@ class _Trunk:
     high: float
 
 
-def violations(things: list[SceneObject], site: Site) -> list[Violation]:
+def broken_laws(things: list[SceneObject], site: Site) -> list[BrokenLaw]:
     """Every law that the things of a room break."""
     trunks = [_trunk(thing) for thing in things]
     found = []
     for thing, trunk in zip(things, trunks):
         if not site.polygon.buffer(LIMIT).covers(trunk.hull) or trunk.low < -LIMIT or trunk.high > site.ceiling + LIMIT:
-            found.append(Violation("leaves", thing.label))
+            found.append(BrokenLaw("leaves", thing.label))
         if math.acos(min(max(float(thing.T_world_object[2, 2]), -1.0), 1.0)) > TILT:
-            found.append(Violation("tilts", thing.label))
-    found += [Violation("floats", things[k].label) for k in range(len(things)) if _floats(k, things, trunks, site)]
+            found.append(BrokenLaw("tilts", thing.label))
+    found += [BrokenLaw("floats", things[k].label) for k in range(len(things)) if _floats(k, things, trunks, site)]
     found += [
-        Violation("interpenetrates", f"{things[i].label} and {things[j].label}")
+        BrokenLaw("interpenetrates", f"{things[i].label} and {things[j].label}")
         for i in range(len(things))
         for j in range(i)
         if _penetrate(trunks[i], trunks[j])
     ]
-    return found + [Violation("blocks", f"door {k}") for k in blocked_doors(things, site)]
+    return found + [BrokenLaw("blocks", f"door {k}") for k in blocked_doors(things, site)]
 
 
 def blocked_doors(things: list[SceneObject], site: Site) -> list[int]:

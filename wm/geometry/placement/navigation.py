@@ -1,4 +1,4 @@
-"""Where a visitor can walk: the occupancy grid of a furnished plan and how much of it hangs together.
+"""Where a visitor can walk: the occupancy grid of a furnished plan and the share of it that is connected.
 
 A cell is free if its centre lies on a room's floor or in a door or passage, and not on an object that stands on the floor. Only
 centres are tested, so a wall askew to the grid closes no door of more than two cells. A body of radius r fits where its
@@ -15,20 +15,17 @@ from jaxtyping import Bool, Float, Int
 from shapely.geometry.base import BaseGeometry
 from skimage.measure import label
 
-from wm.geometry.plan.footprint import Portal, interior_polygon, portals
+from wm.geometry.placement.clearances import STEP
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
 from wm.schema import NavigationSettings
 from wm.types import Mesh, SceneObject
 
-STEP = 0.1
-"""Metres below which a thing on the floor is stepped on: a rug, a threshold."""
 _OVERLAP = 0.01
 """Metres by which a passage reaches into either room, so that floors and passages are one area."""
 _DEFAULTS = NavigationSettings()
-BODY, HEADROOM = _DEFAULTS.body_radius, _DEFAULTS.obstacle_height
-"""Radius of the body that furniture leaves way for, and the height below which a thing is in its way, metres. They are the
-defaults of the body that navigability is measured with, and stay so when another is measured: what stands where does not depend
-on how it is judged."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -43,9 +40,7 @@ class Navigability:
     cell: float
 
 
-def navigability(
-    plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS
-) -> Navigability:
+def navigability(plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS) -> Navigability:
     """The share of the free floor that can be reached from its largest part.
 
     Obstacles are objects that stand on the floor or on one another (support "floor" or "object"), by the outline of what is
@@ -95,9 +90,7 @@ def _below(corners: Float[np.ndarray, "f 3 3"], high: float) -> Float[np.ndarray
     return np.concatenate([start[start[:, 2] < high, :2], crossings])
 
 
-def body_floor(
-    plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3 3"]], *, height: float, radius: float
-) -> BaseGeometry:
+def body_floor(plan: FloorPlan, things: Iterable[Float[np.ndarray, "_ 3 3"]], *, height: float, radius: float) -> BaseGeometry:
     """Where the centre of a body of this height and radius can be among these things, of which the triangles are given."""
     return walkable_floor(plan).difference(outlines(things, STEP, height)).buffer(-radius)
 

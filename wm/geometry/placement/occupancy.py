@@ -1,8 +1,8 @@
-"""What of a room is taken: whether one more box may stand somewhere, and whether people can still pass the doors.
+"""What of a room is taken: whether one more measured box may stand somewhere, and whether people can still pass the doors.
 
 A box may stand where it is inside the room, clear of every other box whose height it shares, out of the floor before doors and
-passages if a body could run into it, and where a body (navigation.BODY) still gets from every door to every other that it could
-reach in the empty room.
+passages if a body could run into it, and where a body (clearances.BODY) still gets from every door to every other that it could
+reach in the empty room. Why rooms that are designed have an engine of their own, with stricter rules: clearances.py.
 """
 
 import math
@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from wm.geometry.placement.navigation import BODY, HEADROOM, STEP
+from wm.geometry.placement.clearances import BODY, in_the_way
 from wm.geometry.placement.upright_box import UprightBox, overlap_height, penetration
 from wm.geometry.plan.site import Site
 
@@ -19,7 +19,7 @@ TOLERANCE = 0.004
 """Metres that a thing may reach into another or into a wall and still stay where it is: less than the centimetre that is
 allowed, more than rounding."""
 CLEARANCE = 0.01
-"""Metres between things that had to be moved apart."""
+"""Metres between things that had to be moved apart, and between a thing that was moved and a wall."""
 _NEAR = 0.3
 """Metres within which a body must be able to come to the standing place before a door."""
 
@@ -38,16 +38,17 @@ class Occupancy:
         self._together = _reached(self._standing, site.probes)
 
     def add(self, box: UprightBox) -> None:
-        """Takes the place of a box that `allows` has allowed."""
+        """Marks the place of a box as taken; the caller has asked `allows` before."""
         self.boxes.append(box)
-        if _in_the_way(box):
+        if in_the_way(box.z, box.top):
             self._standing = self._standing.difference(box.footprint.buffer(BODY))
 
     def allows(self, box: UprightBox, *, exactly: bool = False) -> bool:
         """Whether a box may stand where it is.
 
         Args:
-          exactly: as it came, with TOLERANCE; otherwise with CLEARANCE to everything, for a new place.
+          exactly: whether to judge the box where it came from, with TOLERANCE; a new place is judged with CLEARANCE to
+          everything.
         """
         corners = shapely.points(box.corners)
         if not bool(shapely.covers(self._room if exactly else self._inner, corners).all()):
@@ -57,7 +58,7 @@ class Occupancy:
             return False
         if len(self.blockers(box, TOLERANCE if exactly else -CLEARANCE)):
             return False
-        return not _in_the_way(box) or (self._off_doors(footprint) and self._passable(footprint))
+        return not in_the_way(box.z, box.top) or (self._off_doors(footprint) and self._passable(footprint))
 
     def blockers(self, box: UprightBox, reach: float = TOLERANCE) -> list[UprightBox]:
         """The placed boxes that a box reaches into by more than `reach` metres."""
@@ -72,10 +73,6 @@ class Occupancy:
         standing = self._standing.difference(footprint.buffer(BODY))
         now = _reached(standing, self.site.probes)
         return all(any(wanted <= group for group in now) for wanted in self._together)
-
-
-def _in_the_way(box: UprightBox) -> bool:
-    return box.z < HEADROOM and box.top > STEP
 
 
 def _reached(standing: BaseGeometry, probes: np.ndarray) -> list[frozenset[int]]:
@@ -97,7 +94,7 @@ def distance_to_wall(site: Site, point: np.ndarray) -> tuple[float, np.ndarray]:
     return distance, away[k] / distance if distance > 1e-9 else -site.normals[k]
 
 
-def ring(radius: float, count: int = 24) -> np.ndarray:
+def circle_points(radius: float, count: int = 24) -> np.ndarray:
     """[count, 2] points evenly around a circle."""
     angle = 2 * math.pi * np.arange(count) / count
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)

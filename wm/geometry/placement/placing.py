@@ -13,7 +13,8 @@ import math
 
 import numpy as np
 
-from wm.geometry.placement.occupancy import Occupancy, distance_to_wall, ring
+from wm.geometry.placement.clearances import FLAT, LIFT, WALL_GAP
+from wm.geometry.placement.occupancy import Occupancy, circle_points, distance_to_wall
 from wm.geometry.placement.stacking import stacked
 from wm.geometry.placement.support import covers_windows, is_structure, support_of
 from wm.geometry.placement.upright import EXACT, flattened, levelled, moved_to, turn_between
@@ -21,12 +22,6 @@ from wm.geometry.placement.upright_box import UprightBox, box_of
 from wm.geometry.plan.site import Site, wall_yaw
 from wm.types import SceneObject
 
-LIFT = 0.002
-"""Metres between a thing and what it stands on, so that no two faces share a plane."""
-PRESSED = 0.008
-"""Metres that a thing lying on the floor is high at most: less than the feet of what stands on it may sink in."""
-WALL_GAP = 0.005
-"""Metres between a wall and the back of what hangs on it."""
 REACH = 1.2
 """Metres by which a thing is shifted at most before it is left out."""
 _STEP = 0.04
@@ -82,7 +77,7 @@ def _classified(thing: SceneObject) -> SceneObject:
     if told == "object" and thing.support == "floor" and abs(low - LIFT) < EXACT:
         told = "floor"  # it found no top before
     elif thing.support == held and held in ("object", "wall") and low > LIFT + EXACT:
-        told = held  # it hangs or stands on something, be it ever so low
+        told = held  # it hangs or stands on something, however low that is
     return dataclasses.replace(upright, support=told)
 
 
@@ -106,7 +101,7 @@ def _placed(thing: SceneObject, site: Site, taken: Occupancy, done: dict[int, Sc
         box = box_of(thing)
         box = _shifted(dataclasses.replace(box, z=site.ceiling - LIFT - box.height), site, taken)
     else:
-        thing = flattened(thing, PRESSED) if thing.support == "flat" else thing
+        thing = flattened(thing, FLAT) if thing.support == "flat" else thing
         box = _shifted(dataclasses.replace(box_of(thing), z=LIFT), site, taken)
     return moved_to(thing, box) if box is not None else None
 
@@ -126,7 +121,7 @@ def _shifted(box: UprightBox, site: Site, taken: Occupancy) -> UprightBox | None
 
 def _shifts(toward: np.ndarray) -> np.ndarray:
     """[n, 2] shifts in the order in which they are tried: short before long, towards the wall before away from it."""
-    shifts = np.concatenate([ring(radius) for radius in np.arange(0.005, REACH, _STEP)])
+    shifts = np.concatenate([circle_points(radius) for radius in np.arange(0.005, REACH, _STEP)])
     length = np.linalg.norm(shifts, axis=1)
     cost = length - _TO_WALL * (shifts @ toward)
     return shifts[np.argsort(cost, kind="stable")]
@@ -185,7 +180,7 @@ def _before_opening(box: UprightBox, site: Site, wall: int, along: float, *, cov
     """Whether a box on a wall hangs before a doorway, or before a window that it should not cover."""
     low, high = along - box.width / 2, along + box.width / 2
     return any(
-        gap.wall == wall and gap.low < high and gap.high > low and gap.sill < box.top and gap.head > box.z
-        for gap in site.gaps
-        if not (covers and gap.kind == "window")
+        k == wall and opening.low < high and opening.high > low and opening.sill < box.top and opening.head > box.z
+        for k, opening in site.openings
+        if not (covers and opening.kind == "window")
     )

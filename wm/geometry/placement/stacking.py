@@ -1,4 +1,4 @@
-"""Putting one thing on another: which top is below it, whether it carries, and where on it there is room.
+"""Putting one thing on another: which top is below it, whether that carries it, and where on it there is room.
 
 A top carries where the upper faces near the height of the box's top cover at least half of what is to stand there: a table
 does, the back of an armchair does not.

@@ -54,7 +54,7 @@ _SMALL_PLANT = 0.6
 """Metres of height below which a plant stands on furniture, if it is above the floor."""
 
 
-def words_of(label: str) -> list[str]:
+def singular_words(label: str) -> list[str]:
     """The words of a label in lower case and singular: "Two Flower-pots" gives two, flower, pot."""
     return [_singular(word) for word in _words(label)]
 
@@ -99,7 +99,7 @@ def is_plural(label: str) -> bool:
 
 def covers_windows(label: str) -> bool:
     """Whether a thing belongs before windows."""
-    return bool(_COVERS_WINDOWS.intersection(words_of(label)))
+    return bool(_COVERS_WINDOWS.intersection(singular_words(label)))
 
 
 def _support_by_shape(size: Sequence[float], low: float) -> str:

@@ -1,7 +1,7 @@
 """Setting things upright, and moving them: rigid motions of scene objects.
 
-A reconstructed thing stands nearly upright in the world, never quite. The face of its oriented box that is nearest to level
-becomes level, by the smallest turn that does it; its frame is then named afresh, so that z points up and the origin is the
+A reconstructed thing stands only nearly upright in the world. The face of its oriented box that is nearest to level
+becomes level, by the smallest turn that does it; its frame is then chosen again, so that z points up and the origin is the
 middle of its foot.
 Source: WorldMesh, supplement, "Object Placement".
 """
@@ -58,7 +58,7 @@ def levelled(thing: SceneObject) -> SceneObject:
 
 
 def moved_to(thing: SceneObject, box: UprightBox) -> SceneObject:
-    """An upright thing moved so that its box is this one; only place and turn of the box are looked at."""
+    """An upright thing moved so that its box is this one; of the box only place and yaw are used."""
     at = box_of(thing)
     if max(abs(at.x - box.x), abs(at.y - box.y), abs(at.z - box.z), abs(turn_between(at.yaw, box.yaw))) < EXACT:
         return thing

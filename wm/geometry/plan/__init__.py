@@ -2,10 +2,11 @@
 
     records        FloorPlan, Room, Opening, and the violations of a plan
     layout_json    layout text to records, every syntax fault named
-    rules          what rooms mean together, every broken rule named
+    rules          how rooms fit together, every broken rule named
     loading        load_plan, parse_plan, plan_to_json
     walls          the straight walls and the rooms behind them
-    openings       where openings lie on their walls
-    footprint      the free floor of each room, and the portals between rooms
-    site           one room as furniture meets it
+    portal         Portal: one opening where it lies in the building
+    openings       portals: every opening of a plan on its wall
+    footprint      the free floor of each room
+    site           one room as furniture meets it, and a portal as one wall shows it
 """

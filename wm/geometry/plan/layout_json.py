@@ -1,4 +1,4 @@
-"""Reading plan text into records: syntax, types and ranges, every fault named. What rooms mean together is plan_rules'."""
+"""Reading plan text into records: syntax, types and ranges, every fault named. How rooms fit together is checked in rules.py."""
 
 import json
 import re
@@ -6,19 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from wm.geometry.plan.records import FloorPlan, Opening, PlanError, Room, Violation
+from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, Room, Violation
 
 MAX_BYTES = 8 * 2**20
 MAX_ROOMS = 2048
-MAX_POINTS = 128  # a polygon
-MAX_OPENINGS = 64  # a room
+MAX_POINTS = 128  # per polygon
+MAX_OPENINGS = 64  # per room
 MAX_COORDINATE = 1e4  # metres
-CEILING = (1.8, 50.0)  # metres: below the lowest nobody stands
+CEILING = (1.8, 50.0)  # metres: nobody can stand under a lower ceiling
 WALL = (0.05, 1.0)
-DEFAULT_WALL = 0.15
-DEFAULT_CEILING = 2.8
 WINDOW_SILL = 0.9  # where a window does not say
-# Ids become folder names (views/<room>/), so nothing that a path could mean.
+# Ids become folder names (views/<room>/), so they hold no character that means something in a path.
 _ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
 _KINDS = ("door", "window", "passage")
 # Least and greatest width and height, metres; a body of 0.25 m radius must pass a door.
@@ -44,7 +42,7 @@ def decode(text: str, source: str) -> Any:
 
 
 def encode(plan: FloorPlan) -> str:
-    """The plan as JSON text: the published layout, numbers exact, same plan same text."""
+    """The plan as JSON text in the published layout; numbers are exact, and equal plans give equal texts."""
     document = {
         "metadata": {
             "units": "meters",
@@ -114,13 +112,13 @@ class Reader:
     def _metadata(self, metadata: Any) -> tuple[float, float]:
         if not isinstance(metadata, dict):
             self._fault(None, "type", f"'metadata' must be an object, not {_kind(metadata)}")
-            return DEFAULT_WALL, DEFAULT_CEILING
+            return WALL_THICKNESS, CEILING_HEIGHT
         for key, wanted in (("units", "meters"), ("coordinate_system", "z_up")):
             if metadata.get(key, wanted) != wanted:
                 self._fault(None, "units", f"metadata.{key} is {_show(metadata[key])}; only {wanted!r} is understood")
-        wall = self._number(None, metadata, "metadata.wall_thickness", DEFAULT_WALL, *WALL)
-        ceiling = self._number(None, metadata, "metadata.default_ceiling_height", DEFAULT_CEILING, *CEILING)
-        return (DEFAULT_WALL if wall is None else wall), (DEFAULT_CEILING if ceiling is None else ceiling)
+        wall = self._number(None, metadata, "metadata.wall_thickness", WALL_THICKNESS, *WALL)
+        ceiling = self._number(None, metadata, "metadata.default_ceiling_height", CEILING_HEIGHT, *CEILING)
+        return (WALL_THICKNESS if wall is None else wall), (CEILING_HEIGHT if ceiling is None else ceiling)
 
     def _room(self, value: Any, index: int, ceiling: float) -> Room | None:
         name = f"rooms[{index}]"
@@ -258,7 +256,7 @@ def _kind(value: Any) -> str:
 
 
 def _show(value: Any) -> str:
-    """A value as a message quotes it: short, whatever it is."""
+    """A value as a message quotes it, cut short where it is long."""
     if isinstance(value, dict) or (isinstance(value, list) and any(isinstance(part, (dict, list)) for part in value)):
         return _kind(value)
     text = json.dumps(value)

@@ -1,61 +1,55 @@
-"""Where the openings of a plan lie on its walls, and what is wrong with those that do not."""
+"""Where the openings of a plan lie on its walls, and what is wrong with those that do not lie on one."""
 
-import dataclasses
+import functools
 import math
 
 import numpy as np
 import shapely
 
-from wm.geometry.plan.records import FloorPlan, Opening, Violation
-from wm.geometry.plan.walls import SHARED, Behind, Wall
+from wm.geometry.plan.portal import Portal
+from wm.geometry.plan.records import FloorPlan, Opening, PlanError, Violation
+from wm.geometry.plan.walls import SHARED, Wall, plan_walls
 
 _SAME = 0.02  # metres by which the two entries of one door may differ, one in each room's list
 APART = 0.01  # metres of wall at least between two openings: of less the carving leaves films, or sheets of no thickness
 
 
-@dataclasses.dataclass(frozen=True)
-class Place:
-    """An opening on a wall of the room that lists it."""
+@functools.lru_cache(maxsize=4)
+def portals(plan: FloorPlan) -> tuple[Portal, ...]:
+    """Every opening of the plan once, in the order in which rooms list them.
 
-    room: int
-    opening: int  # index into that room's openings
-    wall: Wall
-    low: float  # metres along the wall
-    high: float
-    behind: Behind | None  # the stretch of shared wall that holds it; None on an exterior wall
-
-    @property
-    def gap(self) -> float:
-        """Metres between the two lines of a shared wall, at the opening's middle; 0 on an exterior wall."""
-        return 0.0 if self.behind is None else self.behind.gap((self.low + self.high) / 2)
+    Raises:
+      PlanError: an opening is not on its wall, a door leads nowhere, or a window looks into a room.
+    """
+    placed, violations = place_openings(plan)
+    if violations:
+        raise PlanError(violations)
+    return placed
 
 
-def place_openings(
-    plan: FloorPlan, walls: tuple[tuple[Wall, ...], ...], unknown: shapely.Geometry | None = None
-) -> tuple[tuple[Place, ...], tuple[Violation, ...]]:
+def place_openings(plan: FloorPlan, unknown: shapely.Geometry | None = None) -> tuple[tuple[Portal, ...], tuple[Violation, ...]]:
     """Every opening once, on its wall, and the violations of those that cannot be placed.
 
     Args:
       plan: rooms with simple polygons.
-      walls: of the plan (`plan_walls`).
-      unknown: where rooms may be that the plan should hold and does not; doors there are left out in silence.
+      unknown: where rooms may lie that could not be read; doors that lead there are left out without a violation.
 
     Returns:
-      places: one for each opening in the order of the plan, less the second entry of doors that both rooms list.
+      portals: one for each opening in the order of the plan, less the second entry of doors that both rooms list.
       violations: opening_off_wall, door_exterior, window_interior, openings_overlap.
     """
-    places: list[Place] = []
+    placed: list[Portal] = []
     violations: list[Violation] = []
-    for index, room in enumerate(plan.rooms):
+    for room, walls in zip(plan.rooms, plan_walls(plan)):
         for k, opening in enumerate(room.openings):
-            place = _place(index, k, opening, walls[index])
-            if isinstance(place, Place):
-                places.append(place)
+            portal = _place(k, opening, walls)
+            if isinstance(portal, Portal):
+                placed.append(portal)
                 continue
             doubtful = unknown is not None and shapely.intersects(unknown, shapely.LineString(opening_ends(opening)))
-            if place[0] != "door_exterior" or not doubtful:
-                violations.append(Violation(room.id, *place))
-    kept, clashes = _once(plan, places)
+            if portal[0] != "door_exterior" or not doubtful:
+                violations.append(Violation(room.id, *portal))
+    kept, clashes = _once(plan, placed)
     return kept, (*violations, *clashes)
 
 
@@ -71,8 +65,8 @@ def opening_ends(opening: Opening) -> np.ndarray:
     return start + np.array([[opening.position], [opening.position + opening.width]]) * direction
 
 
-def _place(room: int, k: int, opening: Opening, walls: tuple[Wall, ...]) -> Place | tuple[str, str]:
-    """The place of one opening, or the rule it breaks and how."""
+def _place(k: int, opening: Opening, walls: tuple[Wall, ...]) -> Portal | tuple[str, str]:
+    """One opening of a room on one of that room's walls, or the rule that it breaks and how."""
     name = describe(opening, k)
     length = float(np.linalg.norm(opening.segment[1] - opening.segment[0]))
     if opening.position < -1e-9 or opening.position + opening.width > length + 1e-6:
@@ -93,71 +87,72 @@ def _place(room: int, k: int, opening: Opening, walls: tuple[Wall, ...]) -> Plac
             return "window_interior", f"{name} looks into another room; windows belong on exterior walls"
     elif behind is None:
         return "door_exterior", f"{name} does not lead into one other room; it must lie on a wall shared with one"
-    return Place(room=room, opening=k, wall=wall, low=low, high=high, behind=behind if opening.kind != "window" else None)
+    behind = behind if opening.kind != "window" else None
+    return Portal(opening=opening, index=k, wall=wall, low=low, high=high, behind=behind)
 
 
-def _once(plan: FloorPlan, places: list[Place]) -> tuple[tuple[Place, ...], list[Violation]]:
+def _once(plan: FloorPlan, placed: list[Portal]) -> tuple[tuple[Portal, ...], list[Violation]]:
     """Drops the second entry of a door listed by both rooms; names openings that overlap or nearly touch."""
-    groups: dict[tuple, list[Place]] = {}
+    groups: dict[tuple, list[Portal]] = {}
     violations: list[Violation] = []
     kept = []
-    for place in places:
+    for portal in placed:
         # Doors of one pair of rooms meet in one group whichever room lists them; windows stay with their wall.
-        pair = (id(place.wall),) if place.behind is None else tuple(sorted((place.room, place.behind.room)))
+        pair = (id(portal.wall),) if portal.behind is None else portal.rooms
         group = groups.setdefault(pair, [])
-        rivals = [other for other in group if _apart(plan, other, place) < APART - 1e-6]
+        rivals = [other for other in group if _apart(other, portal) < APART - 1e-6]
         if not rivals:
-            group.append(place)
-            kept.append(place)
-        elif not any(_same(plan, rival, place) for rival in rivals):
-            violations.append(_clash(plan, place, rivals[0]))
+            group.append(portal)
+            kept.append(portal)
+        elif not any(_same(rival, portal) for rival in rivals):
+            violations.append(_clash(plan, portal, rivals[0]))
     return tuple(kept), violations
 
 
-def _clash(plan: FloorPlan, place: Place, rival: Place) -> Violation:
-    mine, theirs = plan.rooms[place.room], plan.rooms[rival.room]
-    if _apart(plan, rival, place) < -1e-6:
+def _clash(plan: FloorPlan, portal: Portal, rival: Portal) -> Violation:
+    mine, theirs = plan.rooms[portal.wall.room], plan.rooms[rival.wall.room]
+    if _apart(rival, portal) < -1e-6:
         how, advice = "overlaps", ""
     else:
         how, advice = "touches or nearly touches", f"; make them one opening or keep {APART:g} m of wall between them"
-    if place.room != rival.room:
+    if mine is not theirs:
         advice = "; the two entries of one door must agree"
-    message = (
-        f"{describe(mine.openings[place.opening], place.opening)} {how} "
-        f"{describe(theirs.openings[rival.opening], rival.opening)} of room {theirs.id}{advice}"
-    )
+    message = f"{describe(portal.opening, portal.index)} {how} {describe(rival.opening, rival.index)} of room {theirs.id}{advice}"
     return Violation(mine.id, "openings_overlap", message)
 
 
-def _ends(place: Place) -> np.ndarray:
-    return place.wall.start + np.array([[place.low], [place.high]]) * place.wall.direction
+def _offset(portal: Portal, wall: Wall) -> np.ndarray:
+    """[2, 2] from the start of a wall to the ends of a portal on the line of its own wall."""
+    return portal.wall.start + portal.span - wall.start
 
 
-def _apart(plan: FloorPlan, a: Place, b: Place) -> float:
+def _apart(a: Portal, b: Portal) -> float:
     """Metres of wall between two openings of one pair of rooms, or of one exterior wall: beside or above, whichever is more.
 
     Negative where they overlap, infinite where they do not lie on one line.
     """
-    first, second = plan.rooms[a.room].openings[a.opening], plan.rooms[b.room].openings[b.opening]
-    offset = _ends(b) - a.wall.start
+    offset = _offset(b, a.wall)
     along, across = offset @ a.wall.direction, offset @ a.wall.normal
     if np.abs(across).max() > 2 * SHARED:
         return math.inf
     beside = max(float(along.min()) - a.high, a.low - float(along.max()))
-    above = max(second.sill_height - first.sill_height - first.height, first.sill_height - second.sill_height - second.height)
-    return max(beside, above)
+    return max(beside, _above(a.opening, b.opening), _above(b.opening, a.opening))
 
 
-def _same(plan: FloorPlan, a: Place, b: Place) -> bool:
+def _above(lower: Opening, upper: Opening) -> float:
+    """Metres from the head of one opening up to the sill of another."""
+    return upper.sill_height - lower.sill_height - lower.height
+
+
+def _same(a: Portal, b: Portal) -> bool:
     """Whether two entries, one in each room's list, describe one door."""
-    first, second = plan.rooms[a.room].openings[a.opening], plan.rooms[b.room].openings[b.opening]
-    along = np.sort((_ends(b) - a.wall.start) @ a.wall.direction)
+    along = np.sort(_offset(b, a.wall) @ a.wall.direction)
     return (
-        a.room != b.room
-        and first.kind == second.kind
+        a.wall.room != b.wall.room
+        and a.kind == b.kind
         and bool(np.abs(along - [a.low, a.high]).max() <= _SAME)
-        and abs(first.height - second.height) <= _SAME
-        and abs(first.sill_height - second.sill_height) <= _SAME
+        and abs(a.opening.height - b.opening.height) <= _SAME
+        and abs(a.sill - b.sill) <= _SAME
     )
 
 

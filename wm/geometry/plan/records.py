@@ -6,6 +6,11 @@ import numpy as np
 
 from wm.errors import InputError
 
+WALL_THICKNESS = 0.15
+"""Metres, of the walls of a plan that does not say."""
+CEILING_HEIGHT = 2.8
+"""Metres from floor to ceiling, in a plan that does not say."""
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Opening:
@@ -35,8 +40,8 @@ class FloorPlan:
     """Rooms that touch along their walls. Two plans are equal when their JSON is (`plan_to_json`)."""
 
     rooms: tuple[Room, ...]
-    wall_thickness: float = 0.15  # of an exterior wall, and of a shared one (half of it in either room)
-    default_ceiling_height: float = 2.8
+    wall_thickness: float = WALL_THICKNESS  # of an exterior wall, and of a shared one (half of it in either room)
+    default_ceiling_height: float = CEILING_HEIGHT
 
 
 @dataclasses.dataclass(frozen=True)

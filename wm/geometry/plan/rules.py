@@ -1,6 +1,6 @@
-"""The rules a plan keeps, each with a name; all that are broken are named at once.
+"""The rules of a plan, each with a name; all rules that a plan breaks are reported at once.
 
-First each room on its own, then all rooms that are sound together. Where a room is broken or missing, what depends on it
+Each room is checked on its own first, then all sound rooms together. Where a room is broken or missing, what depends on it
 (doors that may lead there, whether everything can be reached) is not judged.
 """
 
@@ -9,15 +9,16 @@ import dataclasses
 import numpy as np
 import shapely
 
-from wm.geometry.plan.footprint import interiors, walls_of
-from wm.geometry.plan.openings import Place, describe, place_openings
+from wm.geometry.plan.footprint import interiors
+from wm.geometry.plan.openings import describe, place_openings
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan, Room, Violation
 from wm.geometry.plan.walls import SHARED, room_polygons
 
-LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius to be entered
-LEAST_AREA = 0.01  # square metres; less is no area
+LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius, a little more than a body, to be entered
+LEAST_AREA = 0.01  # square metres: a polygon of less counts as having no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
-MOST_OVERLAPS = 256  # more are not listed, and nothing else is asked of such a heap
+MOST_OVERLAPS = 256  # more are not listed, and no other rule is checked then
 
 RULES = {
     "file": "The file can be read and is UTF-8 text.",
@@ -62,12 +63,12 @@ def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing
     violations += overlaps
     if len(overlaps) >= MOST_OVERLAPS:
         return tuple(violations)
-    places, misplaced = place_openings(plan, walls_of(plan), unknown)
+    portals, misplaced = place_openings(plan, unknown)
     violations += [*_cramped(plan), *misplaced]
-    violations += [fault for place in places if (fault := _squeezed(plan, place)) is not None]
-    violations += _blind_windows(plan, places)
+    violations += [fault for portal in portals if (fault := _squeezed(plan, portal)) is not None]
+    violations += _blind_windows(plan, portals)
     if unknown is None and not openings_missing:
-        violations += _unreachable(plan, places)
+        violations += _unreachable(plan, portals)
     return tuple(violations)
 
 
@@ -130,58 +131,58 @@ def _cramped(plan: FloorPlan) -> list[Violation]:
     return violations
 
 
-def _squeezed(plan: FloorPlan, place: Place) -> Violation | None:
+def _squeezed(plan: FloorPlan, portal: Portal) -> Violation | None:
     """An opening that reaches into a ceiling or into the wall of a corner, on either side."""
-    room = plan.rooms[place.room]
-    opening = room.openings[place.opening]
-    name = describe(opening, place.opening)
-    head = opening.sill_height + opening.height
-    for side in (place.room,) if place.behind is None else (place.room, place.behind.room):
+    listing = portal.wall.room
+    room = plan.rooms[listing]
+    name = describe(portal.opening, portal.index)
+    for side in (listing,) if portal.behind is None else (listing, portal.behind.room):
         other = plan.rooms[side]
-        if head > other.ceiling_height + 1e-9:
-            message = f"{name} reaches {head:g} m high; the ceiling of {other.id} is at {other.ceiling_height:g} m"
+        if portal.head > other.ceiling_height + 1e-9:
+            message = f"{name} reaches {portal.head:g} m high; the ceiling of {other.id} is at {other.ceiling_height:g} m"
             return Violation(room.id, "opening_off_wall", message)
         floor = interiors(plan)[side]
         # The edge of a floor may be off by SHARED where walls are not quite parallel, so look one to two SHARED beyond.
-        face = place.wall.thickness if side == place.room else -place.wall.thickness - place.gap
-        away = 1.0 if side == place.room else -1.0
-        before = _strip(place, face + away * SHARED, face + away * 2 * SHARED)
+        face = portal.wall.thickness if side == listing else -portal.wall.thickness - portal.gap
+        away = 1.0 if side == listing else -1.0
+        before = _strip(portal, face + away * SHARED, face + away * 2 * SHARED)
         if floor is not None and before.difference(floor).area > 1e-6:
             message = f"{name} reaches into a corner of {other.id}; keep it between the inner faces of the walls beside it"
             return Violation(room.id, "opening_off_wall", message)
     return None
 
 
-def _blind_windows(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation]:
-    windows = [place for place in places if place.behind is None]
+def _blind_windows(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
+    windows = [portal for portal in portals if portal.behind is None]
     tree = shapely.STRtree(room_polygons(plan))
     violations = []
-    for place in windows:
-        room = plan.rooms[place.room]
-        view = _strip(place, -OUTLOOK, -SHARED).buffer(-SHARED / 4, join_style="mitre")
+    for portal in windows:
+        room = plan.rooms[portal.wall.room]
+        view = _strip(portal, -OUTLOOK, -SHARED).buffer(-SHARED / 4, join_style="mitre")
         blocking = sorted(plan.rooms[k].id for k in tree.query(view, predicate="intersects"))
         if blocking:
-            name = describe(room.openings[place.opening], place.opening)
+            name = describe(portal.opening, portal.index)
             message = f"{name} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; windows look outside"
             violations.append(Violation(room.id, "window_interior", message))
     return violations
 
 
-def _strip(place: Place, first: float, second: float) -> shapely.Polygon:
+def _strip(portal: Portal, first: float, second: float) -> shapely.Polygon:
     """The rectangle over an opening between two distances inside its wall's line, metres."""
-    wall = place.wall
-    start, end = (wall.start + along * wall.direction for along in (place.low, place.high))
+    wall = portal.wall
+    start, end = (wall.start + along * wall.direction for along in (portal.low, portal.high))
     return shapely.Polygon(
         [p + inside * wall.normal for inside, ps in ((first, (start, end)), (second, (end, start))) for p in ps]
     )
 
 
-def _unreachable(plan: FloorPlan, places: tuple[Place, ...]) -> list[Violation]:
+def _unreachable(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
     ways: list[list[int]] = [[] for _ in plan.rooms]
-    for place in places:
-        if place.behind is not None:
-            ways[place.room].append(place.behind.room)
-            ways[place.behind.room].append(place.room)
+    for portal in portals:
+        if portal.behind is not None:
+            a, b = portal.rooms
+            ways[a].append(b)
+            ways[b].append(a)
     component = [-1] * len(plan.rooms)
     for seed in range(len(plan.rooms)):
         queue = [seed] if component[seed] < 0 else []

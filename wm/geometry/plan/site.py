@@ -6,7 +6,8 @@ import math
 import numpy as np
 import shapely
 
-from wm.geometry.plan.footprint import interior_polygon, portals
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 
 DOOR_DEPTH = 0.9
@@ -15,17 +16,30 @@ DOOR_DEPTH = 0.9
 DOOR_SIDE = 0.05
 """Metres kept clear on either side of it."""
 
+INTO_WALL = 0.05
+"""Metres by which the zone before a door reaches into the wall, so that no sliver of floor is left between them."""
+
 
 @dataclasses.dataclass(frozen=True)
-class Gap:
-    """An opening on one of a site's walls."""
+class WallOpening:
+    """A portal as one wall shows it: a rectangle in metres along the wall from where it starts, and above the floor.
+
+    Furniture sees it on the walls of a `Site`, the offline world's textures on the chart of a wall.
+    """
 
     kind: str  # door | window | passage
-    wall: int
-    low: float  # metres from the wall's start
+    low: float
     high: float
     sill: float
     head: float
+
+
+def wall_opening(
+    kind: str, ends: np.ndarray, sill: float, head: float, *, start: np.ndarray, direction: np.ndarray
+) -> WallOpening:
+    """An opening with its ends [2, 2] near a wall, on the wall that begins at `start` [2] and runs along `direction` [2]."""
+    low, high = np.sort((ends - start) @ direction).tolist()
+    return WallOpening(kind, low, high, sill, head)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -38,7 +52,7 @@ class Site:
     directions: np.ndarray  # [w, 2] unit
     normals: np.ndarray  # [w, 2] unit, into the room
     lengths: np.ndarray  # [w]
-    gaps: tuple[Gap, ...]
+    openings: tuple[tuple[int, WallOpening], ...]  # (index of its wall, the opening), in the order of the plan
     keep: tuple[shapely.Polygon, ...]  # zones before doors and passages
     probes: np.ndarray  # [d, 2]: a standing place before each door and passage
     centre: tuple[float, float]  # the point of the floor farthest from the walls
@@ -58,22 +72,22 @@ def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str
     lengths = np.linalg.norm(edges, axis=1)
     directions = edges / lengths[:, None]
     normals = np.stack([-directions[:, 1], directions[:, 0]], -1)
-    gaps, keep, probes = [], [], []
+    placed, keep, probes = [], [], []
     for kind, ends, sill, head in openings:
         k = nearest_wall(ends, starts, directions, normals, lengths)
-        along = np.sort((ends - starts[k]) @ directions[k])
-        low, high = max(float(along[0]), 0.0), min(float(along[1]), float(lengths[k]))
-        gaps.append(Gap(kind, k, low, high, sill, head))
+        whole = wall_opening(kind, ends, sill, head, start=starts[k], direction=directions[k])
+        low, high = max(whole.low, 0.0), min(whole.high, float(lengths[k]))
+        placed.append((k, dataclasses.replace(whole, low=low, high=high)))
         if kind == "window":
             continue
         a, b = starts[k] + (low - DOOR_SIDE) * directions[k], starts[k] + (high + DOOR_SIDE) * directions[k]
         reach = DOOR_DEPTH * normals[k]
-        keep.append(shapely.Polygon([a - 0.05 * normals[k], b - 0.05 * normals[k], b + reach, a + reach]))
-        probes.append(starts[k] + 0.5 * (low + high) * directions[k] + 0.45 * normals[k])
+        keep.append(shapely.Polygon([a - INTO_WALL * normals[k], b - INTO_WALL * normals[k], b + reach, a + reach]))
+        probes.append(starts[k] + 0.5 * (low + high) * directions[k] + DOOR_DEPTH / 2 * normals[k])
     pole = shapely.maximum_inscribed_circle(polygon, tolerance=0.02).coords[0]
     return Site(
         polygon=polygon, ceiling=ceiling, starts=starts, directions=directions, normals=normals, lengths=lengths,
-        gaps=tuple(gaps), keep=tuple(keep), probes=np.array(probes).reshape(-1, 2), centre=(float(pole[0]), float(pole[1])),
+        openings=tuple(placed), keep=tuple(keep), probes=np.array(probes).reshape(-1, 2), centre=(float(pole[0]), float(pole[1])),
     )  # fmt: skip
 
 
@@ -103,10 +117,3 @@ def nearest_wall(ends: np.ndarray, starts: np.ndarray, directions: np.ndarray, n
 def wall_yaw(normal: np.ndarray) -> float:
     """Turn about z (radians) that makes a piece's front, -y, face along `normal`."""
     return math.atan2(float(normal[0]), -float(normal[1]))
-
-
-def rectangle(x: float, y: float, yaw: float, w: float, d: float) -> shapely.Polygon:
-    """An oriented footprint of width w and depth d centred on (x, y)."""
-    c, s = math.cos(yaw), math.sin(yaw)
-    corners = [(-w / 2, -d / 2), (w / 2, -d / 2), (w / 2, d / 2), (-w / 2, d / 2)]
-    return shapely.Polygon([(x + c * a - s * b, y + s * a + c * b) for a, b in corners])

@@ -7,6 +7,7 @@ STRtree, so that the cost is linear in the number of rooms.
 """
 
 import dataclasses
+import functools
 
 import numpy as np
 import shapely
@@ -14,7 +15,7 @@ import shapely
 from wm.geometry.plan.records import FloorPlan
 
 SHARED = 0.01  # metres within which walls are one: the paper's tolerance
-_BATCH = 1024  # walls asked about at a time
+_BATCH = 1024  # walls per query of the tree
 _STRAIGHT = 1e-6  # metres a point may lie off the line of its neighbours and still be on one wall
 
 
@@ -55,7 +56,7 @@ def straight_ring(polygon: np.ndarray) -> np.ndarray:
         length = np.maximum(np.linalg.norm(chord, axis=1), np.finfo(float).tiny)
         off = np.abs(_cross(chord, ring - before)) / length
         straight = (off <= _STRAIGHT) & (np.sum((ring - before) * (after - ring), axis=1) > 0)
-        # Of two neighbouring candidates only one goes at a time: the distance of the other is to be measured again.
+        # Of two neighbouring candidates only one is removed per pass: the distance of the other has to be measured again.
         straight &= ~np.roll(straight, 1) | (np.arange(len(ring)) % 2 == 0)
         if not straight.any():
             break
@@ -68,8 +69,12 @@ def room_polygons(plan: FloorPlan) -> np.ndarray:
     return np.array([shapely.Polygon(room.polygon) for room in plan.rooms], dtype=object)
 
 
+@functools.lru_cache(maxsize=4)
 def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
-    """The walls of every room, counter-clockwise, with the rooms behind them. Polygons must be simple."""
+    """The walls of every room, counter-clockwise, with the rooms behind them. Polygons must be simple.
+
+    They are computed once per plan: plans are read-only and compared by identity.
+    """
     rings = [straight_ring(room.polygon) for room in plan.rooms]
     room = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
     start = np.concatenate(rings)

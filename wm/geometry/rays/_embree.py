@@ -1,6 +1,6 @@
-"""The only door to embreex. What it hides (measured, facts.md): misses carry tfar 1e37, `dists` is overwritten in place, fewer
-directions than origins crash, bad indices and NaN vertices are silently never hit, a negative limit reads as occluded, and the
-scene is committed by its first query.
+"""The only module that imports embreex. It hides what was measured of embreex: misses carry tfar 1e37, `dists` is overwritten in
+place, fewer directions than origins crash, bad indices and NaN vertices are silently never hit, a negative limit reads as
+occluded, and the scene is committed by its first query.
 
 embreex is imported when the first scene is built, so that importing `wm.geometry` stays cheap.
 """

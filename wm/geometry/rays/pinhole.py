@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from wm.types import Camera
 
-_PARALLEL = 1e-6  # sine of the angle to the vertical below which "up" says nothing
+_PARALLEL = 1e-6  # sine of the angle to the vertical below which no "up" is defined
 
 
 def make_camera(
@@ -89,7 +89,7 @@ def camera_quat(camera: Camera) -> Float[np.ndarray, "4"]:
 def ray_basis(camera: Camera) -> tuple[Float[np.ndarray, "w 3"], Float[np.ndarray, "h 3"]]:
     """World vectors (columns, rows) whose sums `columns[i] + rows[j]` are the pixels' rays, with d . forward = 1.
 
-    A pinhole's rays are separable in i and j, so h + w vectors stand for all h w of them: a caller adds the ones it needs.
+    A pinhole's rays are separable in i and j, so h + w vectors give all h w rays: a caller adds those it needs.
     """
     right, down, forward = camera_rotation(camera)
     focal, principal = np.asarray(camera.focal, np.float64), np.asarray(camera.principal, np.float64)

@@ -1,7 +1,7 @@
 """What rays see of a mesh: nearest hits, occlusion and whole G-buffers, by Embree on every core.
 
 Tiers of work: per mesh, `build_ray_scene` builds the BVH and the table of normals; per query, rays are made, traced and looked
-up in chunks, one thread a core (Embree and NumPy release the GIL). Chunks write into disjoint slices, so the result does not
+up in chunks, one thread per core (Embree and NumPy release the GIL). Chunks write into disjoint slices, so the result does not
 depend on the number of threads. Embree works in float32: the mesh's middle is subtracted in float64 first, which leaves an
 error of about 1e-7 of the scene's extent wherever the scene stands. `_reference.py` holds the slow float64 twin.
 """
@@ -20,7 +20,7 @@ from wm.host import cores
 from wm.types import Camera, GBuffer, Mesh
 
 _CHUNK = 1 << 15
-"""Rays a task: its arrays (2 MiB) stay in the L2 cache between tracing and look-up, and its overhead is 1 % of its work."""
+"""Rays per task: their arrays (2 MiB) stay in the L2 cache from tracing to look-up, and a task's overhead is 1 % of its work."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -54,12 +54,12 @@ def build_ray_scene(mesh: Mesh) -> RayScene:
 
 
 def ray_scene(scene: Mesh | RayScene) -> RayScene:
-    """The RayScene of a mesh; one that is there already is used as it is."""
+    """The RayScene of a mesh; a RayScene is returned as it is."""
     return scene if isinstance(scene, RayScene) else build_ray_scene(scene)
 
 
 def cast(scene: Mesh | RayScene, camera: Camera) -> GBuffer:
-    """The G-buffer of a camera; of several views of one mesh, build the RayScene once and pass that.
+    """The G-buffer of a camera. For several views of one mesh, build its RayScene once and pass that.
 
     Faces are hit from both sides; the normal is as the mesh winds it.
     """
@@ -90,9 +90,7 @@ def cast(scene: Mesh | RayScene, camera: Camera) -> GBuffer:
     return gbuffer
 
 
-def cast_rays(
-    scene: Mesh | RayScene, origins: Float[np.ndarray, "r 3"], directions: Float[np.ndarray, "r 3"]
-) -> RayHits:
+def cast_rays(scene: Mesh | RayScene, origins: Float[np.ndarray, "r 3"], directions: Float[np.ndarray, "r 3"]) -> RayHits:
     """The nearest hit of each ray, from either side of a face. Directions need not be unit; a ray with a NaN hits nothing.
 
     A ray that starts on a surface may hit that surface: start it 1e-4 m or more in front.

@@ -11,7 +11,7 @@ from wm.geometry.rays.pinhole import camera_center, project_points
 from wm.geometry.rays.raycast import RayScene, occluded
 from wm.types import Camera, Mesh, SurfaceKind
 
-_LIFT = 1e-3
+_OFF_SURFACE = 1e-3
 """Metres in front of its surface from which a point looks, so that it does not shadow itself."""
 
 
@@ -56,14 +56,14 @@ def in_sight(
     """Whether the points `which` face the eye with nothing between, bool."""
     normal = points.normal[which]
     towards = eye - points.position[which]
-    seen = np.sum(normal * towards, axis=1) > _LIFT
+    seen = np.sum(normal * towards, axis=1) > _OFF_SURFACE
     facing = np.flatnonzero(seen)
-    origins = points.position[which[facing]] + _LIFT * normal[facing]
+    origins = points.position[which[facing]] + _OFF_SURFACE * normal[facing]
     seen[facing] = ~occluded(scene, origins, eye - origins, 1.0 - 1e-4)
     return seen
 
 
-def framed(camera: Camera, points: SurfacePoints) -> Bool[np.ndarray, "p"]:
+def in_picture(camera: Camera, points: SurfacePoints) -> Bool[np.ndarray, "p"]:
     """Whether the points fall within the picture, whatever stands between."""
     uv, depth = project_points(camera, points.position)
     with np.errstate(invalid="ignore"):
@@ -74,7 +74,7 @@ def times_seen(scene: RayScene, points: SurfacePoints, cameras: Sequence[Camera]
     """How many cameras see each point: in the picture, facing it, with nothing between."""
     times = np.zeros(len(points.face), int)
     for camera in cameras:
-        inside = np.flatnonzero(framed(camera, points))
+        inside = np.flatnonzero(in_picture(camera, points))
         times[inside] += in_sight(scene, points, inside, camera_center(camera))
     return times
 

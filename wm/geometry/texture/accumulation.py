@@ -7,9 +7,9 @@ facing from the cosine between normal and view (0 at `min_facing`, 1 head-on), r
 (pixels on an outline mix two surfaces). Colour is the weighted running mean over views, in the images' own sRGB encoding: what
 is averaged is what image models see and write, and views of one surface differ by little.
 
-Seen: one of the four pixels around the texel's projection shows the texel's own chart, and the texel is no deeper than the
-deepest of those by more than `occlusion_tolerance`. The paper compares depth alone, with 0.10 m; that lets everything within 10
-cm of a wall leak onto it. Comparing surfaces lets nothing through but the width of an outline.
+A texel is seen where one of the four pixels around its projection shows the texel's own chart, and the texel is no deeper than
+the deepest of those by more than `occlusion_tolerance`. The paper compares depth alone, with 0.10 m; that lets everything within
+10 cm of a wall leak onto it. Comparing surfaces lets nothing through but the width of an outline.
 
 Tiers of work: per view, what each pixel shows; per block of texels of a chart in view (small enough for the cache, and for the
 allocator to reuse), the projection, which is affine in (row, column), and the gathers. Blocks write to texels of their own.
@@ -95,16 +95,17 @@ def accumulate_in_place(
     *,
     usable: Bool[np.ndarray, "h w"] | None = None,
 ) -> None:
-    """As `accumulate`, into the colour and weight of an atlas that the caller owns: a view costs what it sees, not the scene.
+    """As `accumulate`, into the colour and weight of an atlas that the caller owns: the cost is that of what the view sees, not
+    of the scene.
 
     Raises: as `accumulate`, before anything is changed.
     """
     _check(atlas, gbuffer, camera, rgb, room, settings, usable)
     pixels = np.dstack([rgb, gbuffer.depth]).astype(np.float32, copy=False)
     finite = np.isfinite(pixels).all(axis=-1)
-    pixels[~finite] = 0  # a share of nothing, which NaN times zero is not
+    pixels[~finite] = 0  # weighted by zero below, where NaN would stay NaN
     shown = pixel_charts(atlas, gbuffer)
-    # A door's reveal is numbered with one of its rooms and seen from both: either's views paint it.
+    # A door's reveal belongs to one of its two rooms and is seen from both, so views of either room paint it.
     mine = np.append((atlas.chart_room == room) | (atlas.chart_kind == SurfaceKind.REVEAL), False)[shown]
     shown = np.where(finite & mine if usable is None else finite & mine & usable, shown, np.int32(-1))
     picture = _Picture(
@@ -209,9 +210,7 @@ def _purity(shown: np.ndarray) -> np.ndarray:
     return (same / np.float32(9)) ** 2
 
 
-def _view_weight(
-    atlas: Atlas, camera: Camera, chart: int, projected: _Projected, settings: TextureSettings
-) -> np.ndarray:
+def _view_weight(atlas: Atlas, camera: Camera, chart: int, projected: _Projected, settings: TextureSettings) -> np.ndarray:
     """[n] float32: facing * resolution * fade."""
     R, t = camera.T_cam_world[:3, :3], camera.T_cam_world[:3, 3]
     above = np.float32((-R.T @ t - atlas.chart_origin[chart]) @ atlas.chart_normal[chart])  # metres from plane to eye

@@ -109,7 +109,7 @@ def _rasterize(st: np.ndarray, start: np.ndarray, columns: np.ndarray, rows: np.
     """[total] bool: which texel centres triangles `st` [f, 3, 2] (texel units of their charts) cover.
 
     By scan lines: each triangle meets each row of centres in one interval of columns; intervals are summed as differences, so
-    the work is triangles' heights plus texels, however badly holes were triangulated.
+    the work is the sum of the triangles' heights plus the texels, also for long thin triangles.
     """
     low = np.clip(np.ceil(st[..., 1].min(axis=1) - EDGE - 0.5), 0, rows).astype(np.int64)
     high = np.clip(np.floor(st[..., 1].max(axis=1) + EDGE - 0.5) + 1, low, rows).astype(np.int64)

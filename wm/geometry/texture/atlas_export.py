@@ -11,12 +11,12 @@ from wm.geometry.texture.atlas import chart_image
 from wm.geometry.texture.packing import filled_image, shelves
 from wm.types import Atlas, Mesh
 
-RIM = 2  # texels around every chart
+RIM = 2  # texels around every chart: viewers read this atlas through mipmaps, of which the first level needs two
 UNPAINTED = 0.5  # sRGB grey of charts that no view saw, and of the outer skin
 
 
 def atlas_nodes(atlas: Atlas, mesh: Mesh) -> list[GlbNode]:
-    """One textured node a room, "room <index>", and one of plain grey for faces without a chart, "exterior".
+    """One textured node per room, "room <index>", and one of plain grey for faces without a chart, "exterior".
 
     Args:
       atlas: the texture.

@@ -2,7 +2,7 @@
 
 Charts are laid on shelves, each with a rim of its own border colours, so that reading between pixels never finds a neighbour.
 Charts of which nothing is known take a pixel of plain colour, shared by all of that colour; charts of a single texel take that
-pixel. So the image is as large as what is known of the surface, however much more surface there is.
+pixel. So the size of the image follows from the known surface alone.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from wm.geometry.texture.atlas import texel_charts
 from wm.geometry.texture.packing import filled_image, shelves
 from wm.types import Atlas
 
-RIM = 1  # pixels around every chart of more than one texel
+RIM = 1  # pixels around every chart of more than one texel: what bilinear lookups reach (atlas_export allows for mipmaps)
 
 
 def chart_texture(

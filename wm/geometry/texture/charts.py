@@ -1,8 +1,8 @@
 """Which faces of a scaffold lie on one planar surface: the charts of the texture atlas.
 
-A chart is a connected set of faces of one surface and plane; of structure, surfaces are told apart by room and kind. Faces of one
-plane that do not touch (the heads of several doors, a wall that a passage cuts in two) are separate charts, so that charts are
-not mostly empty.
+A chart is a connected set of faces of one surface and plane; surfaces of the structure are told apart by room and kind. Faces of
+one plane that do not touch (the heads of several doors, a wall that a passage cuts in two) are separate charts, so that charts
+are not mostly empty.
 """
 
 import numpy as np

@@ -1,6 +1,7 @@
 """Furnishes one room: functional groups by room type, pieces at the walls, pictures, lamps, curtains and clutter.
 
-The dice are np.random.SeedSequence([seed, room index, 4]); two seeds never give the same room, one seed always does.
+All choices are drawn from np.random.SeedSequence([seed, room index, 4]): equal seeds give equal rooms, different seeds give
+different ones.
 """
 
 import math
@@ -22,9 +23,9 @@ from wm.offline.arrangement.inventory import (
     lamp_sorts,
     with_lamp,
 )
-from wm.offline.arrangement.job import Job
 from wm.offline.arrangement.layout import Layout, Placed
 from wm.offline.arrangement.programmes import PROGRAMME
+from wm.offline.arrangement.room_arrangement import RoomArrangement
 from wm.offline.style.finish import Style
 from wm.types import SceneObject
 
@@ -46,19 +47,19 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     narrow = 2 * float(shapely.maximum_inscribed_circle(site.polygon, tolerance=0.02).length) < NARROW
     kind = "corridor" if narrow and kind in ("hall", "gallery", "living", "other") else kind
     style = lamped(style, kind, seed)
-    job = Job(layout, style, rng, density)
+    arrangement = RoomArrangement(layout, style, rng, density)
     if kind != "bathroom" and rng.random() < 0.55 + 0.4 * style.form.softness:
-        curtain_pairs(job)
-    PROGRAMME[kind](job)
+        curtain_pairs(arrangement)
+    PROGRAMME[kind](arrangement)
     for name, middle, rooms in WALL_FEATURES.get(style.family, ()):
         if kind in rooms.split():
-            wall_piece(job, name, middle)
-    fill(job, kind)
+            wall_piece(arrangement, name, middle)
+    fill(arrangement, kind)
     for _ in range(2 if kind not in ("bathroom", "corridor", "kitchen", "dining") else 0):
-        if job.chance(0.9) and middle_piece(job, kind) is None:
+        if arrangement.chance(0.9) and middle_piece(arrangement, kind) is None:
             break
-    light(job)
-    hang_pictures(job, kind)
+    hang_lamps(arrangement)
+    hang_pictures(arrangement, kind)
     return layout.placed
 
 
@@ -75,31 +76,31 @@ def wanted(site: Site, kind: str, density: float) -> int:
     return round((base + 0.22 * min(site.polygon.area, 45.0)) * (0.3 + 0.7 * density))
 
 
-def fill(job: Job, kind: str) -> None:
+def fill(room: RoomArrangement, kind: str) -> None:
     """Pieces along the walls until the room holds enough."""
-    absent = ABSENT.get(job.style.family, frozenset())
-    special = [piece for piece, rooms in FLAVOUR.get(job.style.family, ()) if kind in rooms.split()]
-    special = special if job.layout.site.polygon.area > 9 else special[:1]
+    absent = ABSENT.get(room.style.family, frozenset())
+    special = [piece for piece, rooms in FLAVOUR.get(room.style.family, ()) if kind in rooms.split()]
+    special = special if room.layout.site.polygon.area > 9 else special[:1]
     usual = [piece for piece in AT_WALL[kind] if piece not in absent]
     if kind not in ("library", "bathroom", "bedroom"):
         head = usual[:1]
-        usual = head + [usual[1:][k] for k in job.rng.permutation(len(usual) - 1)] if usual else []
-    target = wanted(job.layout.site, kind, job.density)
+        usual = head + [usual[1:][k] for k in room.rng.permutation(len(usual) - 1)] if usual else []
+    target = wanted(room.layout.site, kind, room.density)
     for name in [*special, *usual]:
-        if sum(p.piece.support in ("floor", "flat") for p in job.layout.placed) >= target and name not in special:
+        if sum(p.piece.support in ("floor", "flat") for p in room.layout.placed) >= target and name not in special:
             break
-        if job.rng.random() > 0.45 + 0.55 * job.density or (
-            name in ONCE and any(p.piece.label == name for p in job.layout.placed)
+        if room.rng.random() > 0.45 + 0.55 * room.density or (
+            name in ONCE and any(p.piece.label == name for p in room.layout.placed)
         ):
             continue
         where = "corner" if name in CORNERS else "any"
-        job.at_wall(name, where=where)
+        room.at_wall(name, where=where)
 
 
-def light(job: Job) -> None:
+def hang_lamps(room: RoomArrangement) -> None:
     """A lamp over the middle of the floor, two in a long or large room, where none hangs yet."""
-    site = job.layout.site
-    hanging = [p for p in job.layout.placed if p.piece.support == "ceiling"]
+    site = room.layout.site
+    hanging = [p for p in room.layout.placed if p.piece.support == "ceiling"]
     if hanging and site.polygon.area < 30:
         return
     k = int(np.argmax(site.lengths))
@@ -110,16 +111,16 @@ def light(job: Job) -> None:
         points = [points[0] - reach * along, points[0] + reach * along]
     for point in points:
         if all(math.hypot(p.x - point[0], p.y - point[1]) > 1.8 for p in hanging):
-            hang(job, float(point[0]), float(point[1]))
+            hang(room, float(point[0]), float(point[1]))
 
 
-def hang_pictures(job: Job, kind: str) -> None:
+def hang_pictures(room: RoomArrangement, kind: str) -> None:
     """Pictures over what stands at the walls and between it, a mirror or tapestry or clock among them; sconces in grand rooms."""
     if kind == "bathroom":
         return
-    style, rng = job.style, job.rng
+    style, rng = room.style, room.rng
     own, hung = OVER_FURNITURE.get(style.family, ()), 0
-    for placed in list(job.layout.placed):
+    for placed in list(room.layout.placed):
         name = placed.piece.label
         if name in (
             "bed",
@@ -132,15 +133,15 @@ def hang_pictures(job: Job, kind: str) -> None:
             "bench",
             "altar table",
             "desk",
-        ) and job.chance(0.85):
+        ) and room.chance(0.85):
             mirror = name in ("console table", "dresser", "fireplace") and rng.random() < 0.55
             usual = "mirror" if mirror else "picture"
             for piece in (*own[hung % max(len(own), 1) :], usual):
-                if on_wall(job, piece, placed, z=1.25):
+                if on_wall(room, piece, placed, z=1.25):
                     hung += 1
                     break
-    area = job.layout.site.polygon.area
-    extra = round(min(1 + area / 14, 4) * job.density)
+    area = room.layout.site.polygon.area
+    extra = round(min(1 + area / 14, 4) * room.density)
     choices = [
         "picture",
         "picture",
@@ -153,17 +154,15 @@ def hang_pictures(job: Job, kind: str) -> None:
         name = choices[k % len(choices)]
         if kind == "kitchen" and name == "tapestry":
             name = "picture"
-        wall_piece(job, name, 1.95 if name == "wall clock" else 1.6)
+        wall_piece(room, name, 1.95 if name == "wall clock" else 1.6)
     if kind in ("hall", "corridor", "dining", "library", "gallery") and style.form.ornament > 0.4:
         for _ in range(2):
-            wall_piece(job, "wall sconce", 1.75)
+            wall_piece(room, "wall sconce", 1.75)
 
 
 def scene_object(placed: Placed, room: int) -> SceneObject:
     """A placed piece as the scene's record, in world space."""
-    c, s = math.cos(placed.yaw), math.sin(placed.yaw)
-    transform = np.array([[c, -s, 0.0, placed.x], [s, c, 0.0, placed.y], [0.0, 0.0, 1.0, placed.z], [0.0, 0.0, 0.0, 1.0]])
-    piece = placed.piece
+    piece, transform = placed.piece, placed.box.transform
     return SceneObject(
         label=piece.label,
         room=room,

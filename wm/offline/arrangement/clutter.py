@@ -1,10 +1,11 @@
-"""Small things on surfaces: what belongs on a nightstand, a mantel, a dining table, and where it finds room there."""
+"""Small things on surfaces: what belongs on a nightstand, a mantel or a dining table, and where there is room for it."""
 
 import math
 
 import numpy as np
 
-from wm.offline.arrangement.layout import LIFT, Layout, Placed
+from wm.geometry.placement.clearances import LIFT
+from wm.offline.arrangement.layout import Layout, Placed
 from wm.offline.furniture import make_piece
 from wm.offline.style.finish import PERIOD, Style
 
@@ -22,10 +23,10 @@ ON: dict[str, tuple[str, ...]] = {
     "altar table": ("candlestick", "flowers", "candlestick"),
     "media bench": ("potted plant", "pile of books"),
 }
-"""What may stand on a kind, in the order in which it is tried."""
+"""What may stand on a kind of furniture, in the order in which it is tried."""
 
 HOW_MANY = {"nightstand": 2, "side table": 1, "coffee table": 2, "round table": 1, "dining table": 3, "desk": 3}
-"""Things on a kind; two where it is not listed."""
+"""How many things stand on a kind; two where it is not listed."""
 
 
 def things_for(kind: str, style: Style, rng: np.random.Generator) -> list[str]:
@@ -46,7 +47,7 @@ def things_for(kind: str, style: Style, rng: np.random.Generator) -> list[str]:
     return [choices[k] for k in order][: HOW_MANY.get(kind, 2 + int(style.form.ornament > 0.6))]
 
 
-def dress(layout: Layout, placed: Placed, style: Style, rng: np.random.Generator, *, density: float) -> None:
+def add_clutter(layout: Layout, placed: Placed, style: Style, rng: np.random.Generator, *, density: float) -> None:
     """Puts things on a placed piece's surfaces, as many as find room."""
     for top in placed.piece.tops:
         things = [thing for thing in things_for(placed.piece.label, style, rng) if rng.random() < 0.35 + 0.65 * density]

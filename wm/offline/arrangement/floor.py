@@ -1,8 +1,8 @@
 """The floor of a room while it is being furnished, and what one more piece on it closes off.
 
-Three sorts of floor: *open*, under no piece; *ways*, where the middle of a person walks; *places*, where navigation's slim body
-fits at all. A floor stays passable while every door lies at the main way, nearly all ways and nearly all of the open floor hang
-together, and no more than ALLOWED of the places is closed off.
+There are three sorts of floor: *open* floor is under no piece; on *ways* the middle of a person walks; in *places* navigation's
+slim body fits at all. A floor stays passable while every door lies at the main way, nearly all ways and nearly all of the open
+floor hang together, and no more than ALLOWED of the places is closed off.
 
 Open floor and ways are looked up on a grid of 0.1 m: a way must be so wide that it has grid points all along, however it runs.
 What is closed off is an area: a strip of floor of a few centimetres has a row of points on one grid and none on another.
@@ -15,20 +15,20 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 from skimage.measure import label
 
-from wm.geometry.placement.navigation import BODY
+from wm.geometry.placement.clearances import BODY
 from wm.geometry.plan.site import Site
 from wm.schema import NavigationSettings
 
 WAY = 0.33
 """Metres around the middle of a way: 0.66 m is what a person leaves open. It is also half a cell of the grid of navigation
 (0.15 m) more than the radius of its body (0.25 m), so that along a way that grid has a row of cells. What is moved into a room
-afterwards (occupancy.py) need only let that body pass: it takes what it is given, and here is where ways are made."""
+afterwards (occupancy.py) need only let that body pass (why: wm.geometry.placement.clearances)."""
 STEP_ASIDE = 0.2
 """How far from a way that slim body still counts as standing at it, metres."""
 HALF_CELL = NavigationSettings().cell / 2
 """On an unlucky grid of navigation a strip has as many cells as if it were this much wider on every side, metres."""
 ALLOWED = (0.05, 0.5)
-"""Of the places may be closed off: this share of them, and this many square metres."""
+"""At most this share of the places, and at most this many square metres of them, may be closed off."""
 CELL = 0.1
 REACHABLE = 0.97
 """Share of the ways that must hang together."""

@@ -1,4 +1,4 @@
-"""What a room of each type may hold beyond its functional groups, and what each style family owns or would not own."""
+"""What a room of each type may hold beyond its functional groups, and what each style family has or never has."""
 
 import dataclasses
 
@@ -101,17 +101,17 @@ ABSENT: dict[str, frozenset[str]] = {
     "midcentury": frozenset({"statue", "candelabra", "lectern"}),
     "japanese": frozenset({"statue", "column", "candelabra", "grandfather clock", "globe", "lectern"}),
 }
-"""What families would not own."""
+"""Pieces that rooms of a family never hold."""
 
 ONCE = frozenset({"wardrobe", "dresser", "desk", "grandfather clock", "globe", "lectern", "suit of armour", "orrery",
                   "gear sculpture"})  # fmt: skip
-"""Pieces of which a room holds one."""
+"""Pieces of which a room holds one at most."""
 
 CORNERS = frozenset(
     {"plant", "floor lamp", "candelabra", "statue", "column", "globe", "basket", "stool", "armchair", "suit of armour",
      "giant mushroom", "folding screen", "topiary"}
 )  # fmt: skip
-"""Pieces that like corners."""
+"""Pieces that are placed in corners first."""
 
 
 def lamp_sorts(style: Style, kind: str | None = None) -> tuple[str, ...]:

@@ -1,26 +1,30 @@
-"""A room while it is being furnished: what stands where, and whether one more piece may stand there too.
+"""A room while it is being designed: what stands where, and whether one more piece may stand there too.
 
 A piece may stand where its footprint lies inside the room, clear of the zones before doors, of every piece whose height
-interval it shares, and of what other pieces need before them; and only if the floor stays passable (floor.py).
+interval it shares, and of what other pieces need before them; and only if the floor stays passable (floor.py). Why placement
+answers the same question by other rules for things that stand somewhere already: wm.geometry.placement.clearances.
 """
 
 import dataclasses
+import functools
 import math
 
 import numpy as np
 import shapely
 from scipy import ndimage
 
-from wm.geometry.plan.site import Site, rectangle, wall_yaw
+from wm.geometry.placement.clearances import LIFT
+from wm.geometry.placement.upright_box import UprightBox
+from wm.geometry.plan.site import Site, wall_yaw
 from wm.offline.arrangement.floor import CELL, BareFloor, Floor
 from wm.offline.furniture import Piece
 
 CLEARANCE = 0.015
-"""Metres between two pieces, and between a piece and a wall."""
-LIFT = 0.002
-"""Metres by which things stay off the surface they stand on, so that no two faces share a plane."""
-HEADROOM = 1.9
-"""Metres below which a hanging or standing thing is in the way of a door: 0.1 m more than navigation counts."""
+"""Metres between two pieces: more than placement leaves between things that it moved apart (occupancy.CLEARANCE), because a
+piece of a room that is being designed can as well stand elsewhere."""
+DOOR_HEADROOM = 1.9
+"""Metres below which a hanging or standing thing is in the way before a door: 0.1 m more than clearances.HEADROOM, for the same
+reason."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -28,15 +32,31 @@ class Placed:
     """A piece with its place."""
 
     piece: Piece
-    x: float
-    y: float
-    z: float  # of its lowest point
-    yaw: float
-    footprint: shapely.Polygon
+    box: UprightBox  # of the piece's size
+
+    @property
+    def x(self) -> float:
+        return self.box.x
+
+    @property
+    def y(self) -> float:
+        return self.box.y
+
+    @property
+    def yaw(self) -> float:
+        return self.box.yaw
+
+    @property
+    def z(self) -> float:
+        return self.box.z
 
     @property
     def top(self) -> float:
-        return self.z + float(self.piece.size[2])
+        return self.box.top
+
+    @functools.cached_property
+    def footprint(self) -> shapely.Polygon:
+        return self.box.footprint
 
 
 class Layout:
@@ -69,20 +89,22 @@ class Layout:
           mates: labels of the pieces that may use that floor all the same.
         """
         w, d, h = piece.size.tolist()
-        footprint = rectangle(x, y, yaw, w, d)
-        top = z + h
-        if not self.room.contains(footprint) or top > self.site.ceiling - 0.001:
+        placed = Placed(piece, UprightBox(x, y, z, yaw, w, d, h))
+        footprint = placed.footprint
+        if not self.room.contains(footprint) or placed.top > self.site.ceiling - 0.001:
             return None
-        if piece.support != "flat" and z < HEADROOM and any(zone.intersects(footprint) for zone in self.site.keep):
+        if piece.support != "flat" and z < DOOR_HEADROOM and any(zone.intersects(footprint) for zone in self.site.keep):
             return None
-        if piece.support != "flat" and self.clashes(footprint, z, top):
+        if piece.support != "flat" and self.clashes(footprint, z, placed.top):
             return None
         zone = None
         if piece.support == "floor":
             if any(area.intersects(footprint) and piece.label not in who for area, who in self.reserved):
                 return None
             if front > 0.0:
-                zone = rectangle(x + math.sin(yaw) * (d + front) / 2, y - math.cos(yaw) * (d + front) / 2, yaw, 0.8 * w, front)
+                away = (d + front) / 2
+                ahead = UprightBox(x + math.sin(yaw) * away, y - math.cos(yaw) * away, z, yaw, 0.8 * w, front, h)
+                zone = ahead.footprint
                 if not self.room.contains(zone) or self.clashes(zone, 0.05, 1.0, who=mates):
                     return None
         if piece.support == "floor":
@@ -92,7 +114,6 @@ class Layout:
             self.floor = floor
         if zone is not None:
             self.reserved.append((zone, mates))
-        placed = Placed(piece, x, y, z, yaw, footprint)
         self.placed.append(placed)
         return placed
 
@@ -175,8 +196,9 @@ class Layout:
     def over_opening(self, wall: int, low: float, high: float, z: float, top: float) -> bool:
         """Whether a thing on a wall's stretch would stand before a window's glass or a doorway."""
         return any(
-            gap.wall == wall and gap.low - 0.06 < high and gap.high + 0.06 > low and gap.sill - 0.02 < top and gap.head + 0.02 > z
-            for gap in self.site.gaps
+            opening.low - 0.06 < high and opening.high + 0.06 > low and opening.sill - 0.02 < top and opening.head + 0.02 > z
+            for k, opening in self.site.openings
+            if k == wall
         )
 
     def on_floor(

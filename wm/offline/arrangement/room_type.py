@@ -1,4 +1,4 @@
-"""What type of room one is to whoever finishes and furnishes it: rooms that differ in size or place only are of one type."""
+"""The type of a room, by which it is finished and furnished: rooms that differ only in size or place are of one type."""
 
 from wm.synth.room_names import room_sort
 

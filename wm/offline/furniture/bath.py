@@ -5,7 +5,7 @@ import shapely
 
 from wm.offline.furniture.common import front
 from wm.offline.furniture.outlines import rounded
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of
 from wm.offline.furniture.solids import (
     Real,
     Solid,
@@ -260,9 +260,9 @@ def towel_rail(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "bathtub": Kind(bathtub, "floor", (1.55, 0.72, 0.55), (1.75, 0.8, 0.62), front=0.5),
-    "washbasin": Kind(washbasin, "floor", (0.52, 0.44, 0.84), (0.95, 0.5, 0.88), front=0.55),
-    "toilet": Kind(toilet, "floor", (0.37, 0.66, 0.76), (0.4, 0.7, 0.82), front=0.5),
-    "shower": Kind(shower, "floor", (0.85, 0.85, 2.0), (0.95, 0.95, 2.05), front=0.5),
-    "towel rail": Kind(towel_rail, "wall", (0.5, 0.1, 0.5), (0.65, 0.12, 0.6)),
+    "bathtub": FurnitureKind(bathtub, "floor", (1.55, 0.72, 0.55), (1.75, 0.8, 0.62), front=0.5),
+    "washbasin": FurnitureKind(washbasin, "floor", (0.52, 0.44, 0.84), (0.95, 0.5, 0.88), front=0.55),
+    "toilet": FurnitureKind(toilet, "floor", (0.37, 0.66, 0.76), (0.4, 0.7, 0.82), front=0.5),
+    "shower": FurnitureKind(shower, "floor", (0.85, 0.85, 2.0), (0.95, 0.95, 2.05), front=0.5),
+    "towel rail": FurnitureKind(towel_rail, "wall", (0.5, 0.1, 0.5), (0.65, 0.12, 0.6)),
 }

@@ -4,7 +4,7 @@ import numpy as np
 
 from wm.offline.furniture.common import COLUMN, TURNED, finial, frame_wood, legs, tracery
 from wm.offline.furniture.outlines import arch, frame, rectangle, rounded
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of, pick
 from wm.offline.furniture.solids import Real, box, extrude, lathe, puff, rod, rounded_box, turn
 from wm.offline.style.finish import Style
 
@@ -157,7 +157,7 @@ def four_poster(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "bed": Kind(bed, "floor", (1.5, 2.05, 1.05), (1.85, 2.15, 1.35), front=0.4),
-    "single bed": Kind(bed, "floor", (0.95, 2.0, 0.95), (1.05, 2.1, 1.2), front=0.3),
-    "four-poster bed": Kind(four_poster, "floor", (1.75, 2.2, 2.1), (1.95, 2.3, 2.25), front=0.4),
+    "bed": FurnitureKind(bed, "floor", (1.5, 2.05, 1.05), (1.85, 2.15, 1.35), front=0.4),
+    "single bed": FurnitureKind(bed, "floor", (0.95, 2.0, 0.95), (1.05, 2.1, 1.2), front=0.3),
+    "four-poster bed": FurnitureKind(four_poster, "floor", (1.75, 2.2, 2.1), (1.95, 2.3, 2.25), front=0.4),
 }

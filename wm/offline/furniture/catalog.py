@@ -17,10 +17,10 @@ from wm.offline.furniture import (
     textiles,
     walls,
 )
-from wm.offline.furniture.piece import Kind, Piece, Size, assemble
+from wm.offline.furniture.piece import FurnitureKind, Piece, Size, assemble
 from wm.offline.style.finish import Style
 
-KINDS: dict[str, Kind] = {
+KINDS: dict[str, FurnitureKind] = {
     **seating.KINDS,
     **tables.KINDS,
     **beds.KINDS,

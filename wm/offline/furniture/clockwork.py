@@ -8,7 +8,7 @@ import numpy as np
 
 from wm.offline.furniture.common import COLUMN, frame_wood
 from wm.offline.furniture.outlines import circle, gear, meshed
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of
 from wm.offline.furniture.solids import Point3, Real, Solid, ball, box, extrude, lathe, rod, shift, tube, turn
 from wm.offline.furniture.walls import dial
 from wm.offline.style.finish import Rgb, Style
@@ -197,9 +197,9 @@ def wall_pipes(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "wall gears": Kind(wall_gears, "wall", (0.85, 0.09, 0.7), (1.3, 0.12, 1.0)),
-    "skeleton wall clock": Kind(skeleton_clock, "wall", (0.8, 0.1, 0.8), (1.15, 0.12, 1.15)),
-    "wall pipes": Kind(wall_pipes, "wall", (0.5, 0.16, 1.3), (0.8, 0.2, 1.9)),
-    "orrery": Kind(orrery, "floor", (0.7, 0.7, 1.3), (0.9, 0.9, 1.5)),
-    "gear sculpture": Kind(gear_sculpture, "floor", (0.7, 0.34, 1.3), (0.95, 0.4, 1.7)),
+    "wall gears": FurnitureKind(wall_gears, "wall", (0.85, 0.09, 0.7), (1.3, 0.12, 1.0)),
+    "skeleton wall clock": FurnitureKind(skeleton_clock, "wall", (0.8, 0.1, 0.8), (1.15, 0.12, 1.15)),
+    "wall pipes": FurnitureKind(wall_pipes, "wall", (0.5, 0.16, 1.3), (0.8, 0.2, 1.9)),
+    "orrery": FurnitureKind(orrery, "floor", (0.7, 0.7, 1.3), (0.9, 0.9, 1.5)),
+    "gear sculpture": FurnitureKind(gear_sculpture, "floor", (0.7, 0.34, 1.3), (0.95, 0.4, 1.7)),
 }

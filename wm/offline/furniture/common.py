@@ -6,7 +6,8 @@ import shapely
 from wm.offline.furniture.outlines import arch, rectangle
 from wm.offline.furniture.piece import Part, of
 from wm.offline.furniture.solids import Real, Solid, ball, box, extrude, lathe, rod, tube
-from wm.offline.style.finish import Rgb, Style
+from wm.offline.style.finish import Style
+from wm.offline.style.style_sheet import scaled_rgb
 
 TURNED = [
     (0.55, 0.0),
@@ -88,10 +89,6 @@ def legs(
     return of("dark_metal" if name == "hairpin" else slot, *solids)
 
 
-def scaled(color: Rgb, factor: Real) -> Rgb:
-    return color[0] * factor, color[1] * factor, color[2] * factor
-
-
 def frame_wood(style: Style) -> str:
     """Slot of the wood that a style builds frames of."""
     if style.form.legs in ("tapered", "slab"):
@@ -110,7 +107,7 @@ def front(style: Style, x0: Real, x1: Real, z0: Real, z1: Real, y: Real, *, slot
     kind = style.form.panel
     width, height = x1 - x0, z1 - z0
     middle = (x0 + x1) / 2
-    shade = scaled(style.slot(slot).colors[0], 0.8)
+    shade = scaled_rgb(style.slot(slot).colors[0], 0.8)
     recessed = kind in ("pointed", "arched", "raised") and min(width, height) > 0.12
     parts = of(slot, box((x0, y - 0.018, z0), (x1, y + 0.01, z1), 0.003), color=shade if recessed else None)
     rail = min(0.07, 0.2 * min(width, height))

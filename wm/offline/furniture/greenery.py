@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of, pick
 from wm.offline.furniture.solids import Point3, Real, Solid, ball, box, closed, lathe, rod, shift, stretch, tube
 from wm.offline.furniture.storage import vessel
 from wm.offline.style.finish import Style
@@ -235,10 +235,10 @@ def planter(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "topiary": Kind(topiary, "floor", (0.44, 0.44, 1.1), (0.54, 0.54, 1.5)),
-    "planter": Kind(planter, "floor", (0.8, 0.32, 0.75), (1.1, 0.38, 0.95)),
-    "wall ivy": Kind(wall_ivy, "wall", (0.7, 0.18, 1.5), (1.0, 0.22, 2.0)),
-    "plant": Kind(plant, "floor", (0.55, 0.55, 1.0), (0.75, 0.75, 1.5)),
-    "flowers": Kind(flowers, "object", (0.2, 0.2, 0.34), (0.26, 0.26, 0.44)),
-    "potted plant": Kind(small_plant, "object", (0.22, 0.22, 0.26), (0.3, 0.3, 0.36)),
+    "topiary": FurnitureKind(topiary, "floor", (0.44, 0.44, 1.1), (0.54, 0.54, 1.5)),
+    "planter": FurnitureKind(planter, "floor", (0.8, 0.32, 0.75), (1.1, 0.38, 0.95)),
+    "wall ivy": FurnitureKind(wall_ivy, "wall", (0.7, 0.18, 1.5), (1.0, 0.22, 2.0)),
+    "plant": FurnitureKind(plant, "floor", (0.55, 0.55, 1.0), (0.75, 0.75, 1.5)),
+    "flowers": FurnitureKind(flowers, "object", (0.2, 0.2, 0.34), (0.26, 0.26, 0.44)),
+    "potted plant": FurnitureKind(small_plant, "object", (0.22, 0.22, 0.26), (0.3, 0.3, 0.36)),
 }

@@ -6,7 +6,7 @@ import numpy as np
 
 from wm.offline.furniture.common import front
 from wm.offline.furniture.outlines import rectangle, rounded
-from wm.offline.furniture.piece import Kind, Model, Part, Size, Top, of
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, Top, of
 from wm.offline.furniture.solids import Real, box, extrude, lathe, rod, rounded_box, shift, tube, turn
 from wm.offline.style.finish import PERIOD, Style
 
@@ -179,10 +179,10 @@ def hood(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "kitchen counter": Kind(counter, "floor", (0.9, 0.6, 0.9), (1.6, 0.62, 0.92), front=0.7),
-    "sink counter": Kind(sink, "floor", (1.0, 0.6, 0.9), (1.3, 0.62, 0.92), front=0.7),
-    "stove": Kind(stove, "floor", (0.6, 0.62, 0.9), (0.66, 0.66, 0.92), front=0.7),
-    "fridge": Kind(fridge, "floor", (0.62, 0.66, 1.7), (0.72, 0.7, 1.85), front=0.7),
-    "wall cupboard": Kind(wall_cupboard, "wall", (0.8, 0.32, 0.6), (1.5, 0.36, 0.7)),
-    "range hood": Kind(hood, "wall", (0.62, 0.44, 0.6), (0.7, 0.48, 0.7)),
+    "kitchen counter": FurnitureKind(counter, "floor", (0.9, 0.6, 0.9), (1.6, 0.62, 0.92), front=0.7),
+    "sink counter": FurnitureKind(sink, "floor", (1.0, 0.6, 0.9), (1.3, 0.62, 0.92), front=0.7),
+    "stove": FurnitureKind(stove, "floor", (0.6, 0.62, 0.9), (0.66, 0.66, 0.92), front=0.7),
+    "fridge": FurnitureKind(fridge, "floor", (0.62, 0.66, 1.7), (0.72, 0.7, 1.85), front=0.7),
+    "wall cupboard": FurnitureKind(wall_cupboard, "wall", (0.8, 0.32, 0.6), (1.5, 0.36, 0.7)),
+    "range hood": FurnitureKind(hood, "wall", (0.62, 0.44, 0.6), (0.7, 0.48, 0.7)),
 }

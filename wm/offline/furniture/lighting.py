@@ -6,7 +6,7 @@ import numpy as np
 
 from wm.offline.furniture.common import COLUMN, TURNED, candle
 from wm.offline.furniture.outlines import arch
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of, pick
 from wm.offline.furniture.shades import shade, standing, wheel_of_globes
 from wm.offline.furniture.solids import ball, extrude, lathe, rod, shell, shift, tube, turn
 from wm.offline.style.finish import Style
@@ -214,11 +214,11 @@ def candles(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "floor lamp": Kind(floor_lamp, "floor", (0.38, 0.38, 1.45), (0.48, 0.48, 1.7)),
-    "candelabra": Kind(candelabra, "floor", (0.42, 0.42, 1.45), (0.5, 0.5, 1.7)),
-    "table lamp": Kind(table_lamp, "object", (0.24, 0.24, 0.4), (0.32, 0.32, 0.52)),
-    "candles": Kind(candles, "object", (0.18, 0.18, 0.18), (0.22, 0.22, 0.26)),
-    "chandelier": Kind(chandelier, "ceiling", (0.7, 0.7, 0.7), (0.95, 0.95, 0.85)),
-    "pendant lamp": Kind(pendant, "ceiling", (0.34, 0.34, 0.6), (0.5, 0.5, 0.8)),
-    "wall sconce": Kind(sconce, "wall", (0.14, 0.2, 0.3), (0.18, 0.24, 0.38)),
+    "floor lamp": FurnitureKind(floor_lamp, "floor", (0.38, 0.38, 1.45), (0.48, 0.48, 1.7)),
+    "candelabra": FurnitureKind(candelabra, "floor", (0.42, 0.42, 1.45), (0.5, 0.5, 1.7)),
+    "table lamp": FurnitureKind(table_lamp, "object", (0.24, 0.24, 0.4), (0.32, 0.32, 0.52)),
+    "candles": FurnitureKind(candles, "object", (0.18, 0.18, 0.18), (0.22, 0.22, 0.26)),
+    "chandelier": FurnitureKind(chandelier, "ceiling", (0.7, 0.7, 0.7), (0.95, 0.95, 0.85)),
+    "pendant lamp": FurnitureKind(pendant, "ceiling", (0.34, 0.34, 0.6), (0.5, 0.5, 0.8)),
+    "wall sconce": FurnitureKind(sconce, "wall", (0.14, 0.2, 0.3), (0.18, 0.24, 0.38)),
 }

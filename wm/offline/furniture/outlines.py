@@ -23,7 +23,7 @@ def rounded(width: Real, height: Real, radius: Real, *, at: tuple[Real, Real] = 
 def arch(kind: str, width: Real, height: Real, *, at: tuple[Real, Real] = (0.0, 0.0), steps: int = 7) -> shapely.Polygon:
     """A panel with a top: "pointed" (two arcs that meet), "round", "wave" (a lazy S) or anything else for straight.
 
-    The springing lies as high as leaves the arch its natural rise, at most 0.6 of the height.
+    The arch springs where its natural rise ends at the top, or lower so that it takes at most 0.6 of the height.
     """
     x, z = at
     half = width / 2
@@ -82,7 +82,8 @@ def gear(
             for a in turned + 0.3 + 2 * math.pi * np.arange(spokes) / spokes
         ]
         wheel = wheel.difference(ring.difference(shapely.union_all(bars)))
-    return wheel if isinstance(wheel, shapely.Polygon) else circle(radius, at=at)  # so small that its spokes came off
+    # A wheel may be so small that the spokes would not be attached to it.
+    return wheel if isinstance(wheel, shapely.Polygon) else circle(radius, at=at)
 
 
 def meshed(turned: Real, teeth: int, other: int, towards: Real) -> float:

@@ -16,7 +16,7 @@ from wm.offline.furniture.outlines import circle, gear
 from wm.offline.furniture.piece import Part, of
 from wm.offline.furniture.solids import Real, box, extrude
 from wm.offline.style.finish import Rgb, Style
-from wm.offline.style.sheet import mix
+from wm.offline.style.style_sheet import mix_rgb
 
 LAYER = 0.0012
 """Metres between two layers of paint."""
@@ -61,27 +61,29 @@ class Canvas:
 
 def landscape(c: Canvas, rng: np.random.Generator) -> list[Part]:
     """Three ridges under a pale sky, a sun low or high."""
-    sky = mix(c.colors[0], CREAM, 0.72)
+    sky = mix_rgb(c.colors[0], CREAM, 0.72)
     parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, sky)
     parts += c.paint(
-        c.disc(float(rng.uniform(-0.6, 0.6)), float(rng.uniform(0.62, 0.82)), 0.09), 1, mix(c.colors[1], CREAM, 0.45)
+        c.disc(float(rng.uniform(-0.6, 0.6)), float(rng.uniform(0.62, 0.82)), 0.09), 1, mix_rgb(c.colors[1], CREAM, 0.45)
     )
     for k, level in enumerate((0.52, 0.36, 0.2)):
-        parts += c.paint(c.ridge(rng, level, 0.08), 2 + k, mix(mix(c.colors[2], CREAM, 0.5 - 0.22 * k), SHADE, 0.05 + 0.12 * k))
+        parts += c.paint(
+            c.ridge(rng, level, 0.08), 2 + k, mix_rgb(mix_rgb(c.colors[2], CREAM, 0.5 - 0.22 * k), SHADE, 0.05 + 0.12 * k)
+        )
     return parts
 
 
 def sea(c: Canvas, rng: np.random.Generator) -> list[Part]:
     """A horizon, sails on it, and the beach."""
     water: Rgb = (0.36, 0.55, 0.64)
-    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix(water, CREAM, 0.78))
+    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix_rgb(water, CREAM, 0.78))
     parts += c.paint(c.path((-1, 0), (1, 0), (1, 0.55), (-1, 0.55)), 1, water)
     parts += c.paint(c.ridge(rng, 0.2, 0.04), 2, (0.88, 0.81, 0.66))
     for k in range(2):
         x, tall = float(rng.uniform(-0.7, 0.5)) + 0.3 * k, 0.26 - 0.1 * k
         parts += c.paint(c.path((x, 0.5), (x + 0.2 * tall * 3, 0.5), (x, 0.5 + tall)), 3, CREAM)
         parts += c.paint(
-            c.path((x - 0.12, 0.49), (x + 0.2, 0.49), (x + 0.14, 0.45), (x - 0.08, 0.45)), 4, mix(c.colors[k], SHADE, 0.4)
+            c.path((x - 0.12, 0.49), (x + 0.2, 0.49), (x + 0.14, 0.45), (x - 0.08, 0.45)), 4, mix_rgb(c.colors[k], SHADE, 0.4)
         )
     return parts
 
@@ -89,7 +91,7 @@ def sea(c: Canvas, rng: np.random.Generator) -> list[Part]:
 def portrait(c: Canvas, rng: np.random.Generator) -> list[Part]:
     """Head and shoulders before a dark ground."""
     skin: Rgb = (0.80, 0.62, 0.50)
-    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix(c.colors[0], SHADE, 0.62))
+    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix_rgb(c.colors[0], SHADE, 0.62))
     x = float(rng.uniform(-0.1, 0.1))
     tall = c.high - c.low
     head = shapely.affinity.translate(shapely.affinity.scale(circle(0.13 * tall), 0.78, 1.0), *c.at(x, 0.63))
@@ -97,59 +99,59 @@ def portrait(c: Canvas, rng: np.random.Generator) -> list[Part]:
     wide = 0.3 * tall
     base = c.at(x, 0.0)
     coat = shapely.affinity.translate(shapely.affinity.scale(circle(1.0), wide, 0.42 * tall), *base)
-    parts += c.paint(hair, 1, mix((0.30, 0.20, 0.13), c.colors[3], 0.15))
+    parts += c.paint(hair, 1, mix_rgb((0.30, 0.20, 0.13), c.colors[3], 0.15))
     parts += c.paint(
         shapely.box(c.at(x, 0)[0] - 0.045 * tall, base[1] + 0.3 * tall, base[0] + 0.045 * tall, base[1] + 0.56 * tall), 2, skin
     )
-    parts += c.paint(coat, 3, mix(c.colors[1], SHADE, 0.25))
+    parts += c.paint(coat, 3, mix_rgb(c.colors[1], SHADE, 0.25))
     parts += c.paint(shapely.affinity.translate(shapely.affinity.scale(circle(0.075 * tall), 0.9, 1.5), *c.at(x, 0.36)), 4, CREAM)
     return parts + c.paint(head, 5, skin)
 
 
 def still_life(c: Canvas, rng: np.random.Generator) -> list[Part]:
     """A jug and fruit on a table."""
-    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix(c.colors[0], mix(CREAM, SHADE, 0.5), 0.55))
-    parts += c.paint(c.path((-1, 0), (1, 0), (1, 0.32), (-1, 0.32)), 1, mix((0.45, 0.30, 0.19), c.colors[0], 0.2))
+    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix_rgb(c.colors[0], mix_rgb(CREAM, SHADE, 0.5), 0.55))
+    parts += c.paint(c.path((-1, 0), (1, 0), (1, 0.32), (-1, 0.32)), 1, mix_rgb((0.45, 0.30, 0.19), c.colors[0], 0.2))
     x = float(rng.uniform(-0.35, -0.05))
     right = ((0.1, 0.2), (0.24, 0.36), (0.2, 0.55), (0.08, 0.64), (0.13, 0.74))
     jug = (*right, *((-a, b) for a, b in right[::-1]))
-    parts += c.paint(c.path(*((x + a, b) for a, b in jug)).buffer(0.008), 2, mix(c.colors[1], CREAM, 0.3))
+    parts += c.paint(c.path(*((x + a, b) for a, b in jug)).buffer(0.008), 2, mix_rgb(c.colors[1], CREAM, 0.3))
     for k in range(4):
-        fruit = mix(c.colors[(2 + k) % len(c.colors)], (0.8, 0.45, 0.2), 0.4)
+        fruit = mix_rgb(c.colors[(2 + k) % len(c.colors)], (0.8, 0.45, 0.2), 0.4)
         parts += c.paint(c.disc(x + 0.34 + 0.17 * k, 0.24 + 0.07 * (k % 2), 0.075), 3 + k, fruit)
     return parts
 
 
 def botanical(c: Canvas, rng: np.random.Generator) -> list[Part]:
     """One pressed plant on a pale sheet."""
-    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix(CREAM, c.colors[3], 0.12))
-    green = mix((0.30, 0.43, 0.26), c.colors[0], 0.3)
+    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix_rgb(CREAM, c.colors[3], 0.12))
+    green = mix_rgb((0.30, 0.43, 0.26), c.colors[0], 0.3)
     bend = float(rng.uniform(-0.16, 0.16))
     t = np.linspace(0.08, 0.92, 9)
     stem = [c.at(bend * math.sin(3 * z), z) for z in t.tolist()]
-    parts += c.paint(shapely.LineString(stem).buffer(0.006), 1, mix(green, SHADE, 0.3))
+    parts += c.paint(shapely.LineString(stem).buffer(0.006), 1, mix_rgb(green, SHADE, 0.3))
     tall = c.high - c.low
     for k, (x, z) in enumerate(stem[2:]):
         long = (0.24 - 0.018 * k) * tall
         for side in (-1.0, 1.0):
             leaf = shapely.affinity.scale(circle(0.5 * long, at=(0.5 * long, 0.0)), 1.0, 0.32, origin=(0, 0))
             turned = shapely.affinity.rotate(leaf, 90 - side * (58 - 3 * k), origin=(0, 0))
-            parts += c.paint(shapely.affinity.translate(turned, x, z), 2 + k % 2, mix(green, CREAM, 0.06 * k))
+            parts += c.paint(shapely.affinity.translate(turned, x, z), 2 + k % 2, mix_rgb(green, CREAM, 0.06 * k))
     return parts
 
 
 def shapes(c: Canvas, rng: np.random.Generator) -> list[Part]:
     """Large soft shapes: an arch, a disc and a bar that overlap."""
-    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix(CREAM, c.colors[3], 0.15))
+    parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, mix_rgb(CREAM, c.colors[3], 0.15))
     x = float(rng.uniform(-0.35, 0.1))
     low = c.at(x, 0.0)
     radius = 0.3 * min(2 * c.half, c.high - c.low)
     arch = c.disc(x, 0.45, 0.3).union(shapely.box(low[0] - radius, low[1], low[0] + radius, c.at(x, 0.45)[1]))
-    parts += c.paint(arch, 1, mix(c.colors[0], CREAM, 0.25))
-    parts += c.paint(c.disc(x + 0.55, 0.68, 0.17), 2, mix(c.colors[1], CREAM, 0.15))
-    parts += c.paint(c.ridge(rng, 0.22, 0.06), 3, mix(c.colors[2], CREAM, 0.2))
+    parts += c.paint(arch, 1, mix_rgb(c.colors[0], CREAM, 0.25))
+    parts += c.paint(c.disc(x + 0.55, 0.68, 0.17), 2, mix_rgb(c.colors[1], CREAM, 0.15))
+    parts += c.paint(c.ridge(rng, 0.22, 0.06), 3, mix_rgb(c.colors[2], CREAM, 0.2))
     return parts + c.paint(
-        c.path((x - 0.5, 0.1), (x + 0.75, 0.1), (x + 0.75, 0.13), (x - 0.5, 0.13)), 4, mix(c.colors[4], SHADE, 0.3)
+        c.path((x - 0.5, 0.1), (x + 0.75, 0.1), (x + 0.75, 0.13), (x - 0.5, 0.13)), 4, mix_rgb(c.colors[4], SHADE, 0.3)
     )
 
 
@@ -164,7 +166,7 @@ def temple(c: Canvas, rng: np.random.Generator) -> list[Part]:
     for k in range(5):
         a = x - 0.38 + 0.19 * k
         parts += c.paint(
-            c.path((a - 0.035, 0.26), (a + 0.035, 0.26), (a + 0.035, 0.63), (a - 0.035, 0.63)), 4, mix(stone, SHADE, 0.08)
+            c.path((a - 0.035, 0.26), (a + 0.035, 0.26), (a + 0.035, 0.63), (a - 0.035, 0.63)), 4, mix_rgb(stone, SHADE, 0.08)
         )
     for a in (x - 0.68, x + 0.64, x + 0.8):
         parts += c.paint(
@@ -177,7 +179,7 @@ def plan_of_wheels(c: Canvas, rng: np.random.Generator) -> list[Part]:
     """A plan of a gear train in pale ink on dark paper."""
     parts = c.paint(c.path((-1, 0), (1, 0), (1, 1), (-1, 1)), 0, (0.14, 0.24, 0.27))
     size = min(2 * c.half, c.high - c.low)
-    ink = mix(CREAM, c.colors[1], 0.25)
+    ink = mix_rgb(CREAM, c.colors[1], 0.25)
     for x, z, share, teeth in ((-0.25, 0.42, 0.27, 24), (0.42, 0.68, 0.17, 15), (0.5, 0.24, 0.12, 11)):
         parts += c.paint(gear(share * size, teeth, turned=float(rng.uniform(0, 1)), at=c.at(x, z)), 1, ink)
     for z in (0.07, 0.93):
@@ -203,5 +205,5 @@ def subject(style: Style, rng: np.random.Generator, *, half: float, low: float, 
     table = SUBJECTS.get(style.family, (landscape, shapes, botanical))
     colors = tuple(style.accents[int(k)] for k in rng.permutation(len(style.accents)))
     canvas = Canvas(half=half, low=low, high=high, face=face, colors=colors)
-    ground = of("painting", box((-half, face, low), (half, 0.002, high), 0.0), color=mix(colors[0], CREAM, 0.6))
+    ground = of("painting", box((-half, face, low), (half, 0.002, high), 0.0), color=mix_rgb(colors[0], CREAM, 0.6))
     return ground + table[int(rng.integers(len(table)))](canvas, rng)

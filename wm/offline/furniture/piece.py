@@ -1,4 +1,4 @@
-"""What a piece of furniture is before it is placed: parts with slots, put together into one mesh in its own frame.
+"""A piece of furniture before it is placed: closed parts, each with a slot, put together into one mesh in its own frame.
 
 Object frame: x to the right of someone who looks at the front, y to the back, z up; the **front faces -y**; the origin is the
 centre of the footprint at the piece's lowest point (also for wall and ceiling pieces, whose back is at +y and top at +z).
@@ -51,7 +51,7 @@ Builder = Callable[[Style, np.random.Generator, Size], Model]
 
 
 @dataclasses.dataclass(frozen=True)
-class Kind:
+class FurnitureKind:
     """A kind of furniture: how it is built, where it belongs and how large it may be."""
 
     build: Builder

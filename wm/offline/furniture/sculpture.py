@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from wm.offline.furniture.common import COLUMN, finial, frame_wood, tracery
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of, pick
 from wm.offline.furniture.solids import Solid, ball, box, extrude, lathe, rod, rounded_box, shift, stretch, tube, turn
 from wm.offline.furniture.tabletop import open_book
 from wm.offline.style.finish import Style
@@ -257,11 +257,11 @@ def lectern(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "statue": Kind(statue, "floor", (0.46, 0.46, 1.6), (0.54, 0.54, 1.85)),
-    "column": Kind(column, "floor", (0.34, 0.34, 1.3), (0.42, 0.42, 1.6)),
-    "globe": Kind(globe, "floor", (0.46, 0.46, 0.85), (0.54, 0.54, 1.0)),
-    "suit of armour": Kind(armour, "floor", (0.62, 0.5, 1.8), (0.68, 0.55, 1.9)),
-    "lectern": Kind(lectern, "floor", (0.5, 0.42, 1.15), (0.56, 0.46, 1.25), front=0.5),
-    "chess piece": Kind(trophy, "floor", (0.42, 0.42, 1.1), (0.55, 0.55, 1.6)),
-    "giant mushroom": Kind(mushroom, "floor", (0.6, 0.6, 0.9), (0.8, 0.8, 1.4)),
+    "statue": FurnitureKind(statue, "floor", (0.46, 0.46, 1.6), (0.54, 0.54, 1.85)),
+    "column": FurnitureKind(column, "floor", (0.34, 0.34, 1.3), (0.42, 0.42, 1.6)),
+    "globe": FurnitureKind(globe, "floor", (0.46, 0.46, 0.85), (0.54, 0.54, 1.0)),
+    "suit of armour": FurnitureKind(armour, "floor", (0.62, 0.5, 1.8), (0.68, 0.55, 1.9)),
+    "lectern": FurnitureKind(lectern, "floor", (0.5, 0.42, 1.15), (0.56, 0.46, 1.25), front=0.5),
+    "chess piece": FurnitureKind(trophy, "floor", (0.42, 0.42, 1.1), (0.55, 0.55, 1.6)),
+    "giant mushroom": FurnitureKind(mushroom, "floor", (0.6, 0.6, 0.9), (0.8, 0.8, 1.4)),
 }

@@ -5,7 +5,7 @@ import numpy as np
 from wm.offline.furniture.classical import couch, klismos_armchair, klismos_back, sabre_legs
 from wm.offline.furniture.common import finial, frame_wood, leg, legs, tracery
 from wm.offline.furniture.outlines import arch, frame, rounded
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of, pick
 from wm.offline.furniture.solids import Real, box, extrude, lathe, puff, rod, rounded_box, shift, tube, turn
 from wm.offline.style.finish import Style
 
@@ -267,11 +267,11 @@ def bench(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "armchair": Kind(armchair, "floor", (0.78, 0.78, 0.86), (0.92, 0.9, 1.05), front=0.4),
-    "sofa": Kind(sofa, "floor", (1.55, 0.82, 0.8), (2.2, 0.95, 0.95), front=0.4),
-    "chair": Kind(chair, "floor", (0.43, 0.46, 0.88), (0.48, 0.52, 1.02), front=0.0),
-    "office chair": Kind(office_chair, "floor", (0.6, 0.6, 0.95), (0.66, 0.66, 1.12)),
-    "stool": Kind(stool, "floor", (0.34, 0.34, 0.44), (0.4, 0.4, 0.5)),
-    "ottoman": Kind(ottoman, "floor", (0.5, 0.45, 0.38), (0.7, 0.55, 0.44)),
-    "bench": Kind(bench, "floor", (1.0, 0.38, 0.43), (1.4, 0.45, 0.48)),
+    "armchair": FurnitureKind(armchair, "floor", (0.78, 0.78, 0.86), (0.92, 0.9, 1.05), front=0.4),
+    "sofa": FurnitureKind(sofa, "floor", (1.55, 0.82, 0.8), (2.2, 0.95, 0.95), front=0.4),
+    "chair": FurnitureKind(chair, "floor", (0.43, 0.46, 0.88), (0.48, 0.52, 1.02), front=0.0),
+    "office chair": FurnitureKind(office_chair, "floor", (0.6, 0.6, 0.95), (0.66, 0.66, 1.12)),
+    "stool": FurnitureKind(stool, "floor", (0.34, 0.34, 0.44), (0.4, 0.4, 0.5)),
+    "ottoman": FurnitureKind(ottoman, "floor", (0.5, 0.45, 0.38), (0.7, 0.55, 0.44)),
+    "bench": FurnitureKind(bench, "floor", (1.0, 0.38, 0.43), (1.4, 0.45, 0.48)),
 }

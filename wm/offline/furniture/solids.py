@@ -18,7 +18,7 @@ from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
 Real = float | int
-"""A number as a person writes it: run-time checks would refuse 0 where 0.0 is meant."""
+"""A number that may be written as an integer: run-time checks would refuse 0 for a float."""
 
 Point3 = tuple[Real, Real, Real]
 

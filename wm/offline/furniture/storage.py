@@ -6,7 +6,7 @@ import numpy as np
 
 from wm.offline.furniture.common import COLUMN, finial, frame_wood, front, legs
 from wm.offline.furniture.outlines import arch, rectangle
-from wm.offline.furniture.piece import Kind, Model, Part, Size, Top, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, Top, of, pick
 from wm.offline.furniture.solids import Real, box, extrude, lathe, puff, rounded_box, turn
 from wm.offline.style.finish import Style
 
@@ -274,13 +274,13 @@ def basket(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "wardrobe": Kind(wardrobe, "floor", (1.0, 0.56, 1.9), (1.7, 0.62, 2.15), front=0.6),
-    "bookshelf": Kind(bookshelf, "floor", (0.85, 0.3, 1.7), (1.5, 0.36, 2.2), front=0.5),
-    "dresser": Kind(dresser, "floor", (0.95, 0.44, 0.78), (1.25, 0.5, 0.9), front=0.5),
-    "sideboard": Kind(sideboard, "floor", (1.3, 0.4, 0.74), (1.8, 0.46, 0.86), front=0.5),
-    "media bench": Kind(media_bench, "floor", (1.3, 0.38, 0.42), (1.8, 0.44, 0.5), front=0.4),
-    "chest": Kind(chest, "floor", (0.8, 0.45, 0.48), (1.05, 0.52, 0.58), front=0.3),
-    "blanket chest": Kind(blanket_chest, "floor", (1.0, 0.42, 0.44), (1.3, 0.48, 0.5), front=0.2),
-    "wall shelf": Kind(wall_shelf, "wall", (0.7, 0.2, 0.36), (1.1, 0.24, 0.42)),
-    "basket": Kind(basket, "floor", (0.34, 0.34, 0.36), (0.46, 0.46, 0.48)),
+    "wardrobe": FurnitureKind(wardrobe, "floor", (1.0, 0.56, 1.9), (1.7, 0.62, 2.15), front=0.6),
+    "bookshelf": FurnitureKind(bookshelf, "floor", (0.85, 0.3, 1.7), (1.5, 0.36, 2.2), front=0.5),
+    "dresser": FurnitureKind(dresser, "floor", (0.95, 0.44, 0.78), (1.25, 0.5, 0.9), front=0.5),
+    "sideboard": FurnitureKind(sideboard, "floor", (1.3, 0.4, 0.74), (1.8, 0.46, 0.86), front=0.5),
+    "media bench": FurnitureKind(media_bench, "floor", (1.3, 0.38, 0.42), (1.8, 0.44, 0.5), front=0.4),
+    "chest": FurnitureKind(chest, "floor", (0.8, 0.45, 0.48), (1.05, 0.52, 0.58), front=0.3),
+    "blanket chest": FurnitureKind(blanket_chest, "floor", (1.0, 0.42, 0.44), (1.3, 0.48, 0.5), front=0.2),
+    "wall shelf": FurnitureKind(wall_shelf, "wall", (0.7, 0.2, 0.36), (1.1, 0.24, 0.42)),
+    "basket": FurnitureKind(basket, "floor", (0.34, 0.34, 0.36), (0.46, 0.46, 0.48)),
 }

@@ -6,7 +6,7 @@ import numpy as np
 
 from wm.offline.furniture.common import COLUMN, TURNED, frame_wood, front, legs
 from wm.offline.furniture.outlines import arch, rounded
-from wm.offline.furniture.piece import Kind, Model, Part, Size, Top, of
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, Top, of
 from wm.offline.furniture.solids import Real, box, extrude, lathe, rounded_box, shift, tube
 from wm.offline.style.finish import Style
 
@@ -236,13 +236,13 @@ def altar(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "dining table": Kind(dining_table, "floor", (1.3, 0.85, 0.73), (2.2, 1.0, 0.77)),
-    "round table": Kind(round_table, "floor", (0.85, 0.85, 0.72), (1.15, 1.15, 0.76)),
-    "coffee table": Kind(coffee_table, "floor", (0.85, 0.5, 0.36), (1.2, 0.65, 0.44)),
-    "side table": Kind(side_table, "floor", (0.42, 0.42, 0.5), (0.52, 0.52, 0.6)),
-    "console table": Kind(console_table, "floor", (0.9, 0.32, 0.78), (1.3, 0.38, 0.88)),
-    "desk": Kind(desk, "floor", (1.2, 0.6, 0.74), (1.6, 0.72, 0.78), front=0.75),
-    "nightstand": Kind(nightstand, "floor", (0.4, 0.36, 0.5), (0.5, 0.42, 0.58), front=0.2),
-    "kitchen island": Kind(kitchen_island, "floor", (1.1, 0.65, 0.9), (1.6, 0.85, 0.92), front=0.7),
-    "altar table": Kind(altar, "floor", (1.3, 0.5, 0.85), (1.7, 0.6, 0.95), front=0.4),
+    "dining table": FurnitureKind(dining_table, "floor", (1.3, 0.85, 0.73), (2.2, 1.0, 0.77)),
+    "round table": FurnitureKind(round_table, "floor", (0.85, 0.85, 0.72), (1.15, 1.15, 0.76)),
+    "coffee table": FurnitureKind(coffee_table, "floor", (0.85, 0.5, 0.36), (1.2, 0.65, 0.44)),
+    "side table": FurnitureKind(side_table, "floor", (0.42, 0.42, 0.5), (0.52, 0.52, 0.6)),
+    "console table": FurnitureKind(console_table, "floor", (0.9, 0.32, 0.78), (1.3, 0.38, 0.88)),
+    "desk": FurnitureKind(desk, "floor", (1.2, 0.6, 0.74), (1.6, 0.72, 0.78), front=0.75),
+    "nightstand": FurnitureKind(nightstand, "floor", (0.4, 0.36, 0.5), (0.5, 0.42, 0.58), front=0.2),
+    "kitchen island": FurnitureKind(kitchen_island, "floor", (1.1, 0.65, 0.9), (1.6, 0.85, 0.92), front=0.7),
+    "altar table": FurnitureKind(altar, "floor", (1.3, 0.5, 0.85), (1.7, 0.6, 0.95), front=0.4),
 }

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from wm.offline.furniture.common import candle
-from wm.offline.furniture.piece import Kind, Model, Size, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Size, of, pick
 from wm.offline.furniture.solids import ball, box, extrude, lathe, rounded_box, shift, turn
 from wm.offline.furniture.storage import vessel
 from wm.offline.style.finish import Style
@@ -122,12 +122,12 @@ def monitor(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "vase": Kind(vase, "object", (0.14, 0.14, 0.2), (0.2, 0.2, 0.32)),
-    "bowl": Kind(bowl, "object", (0.24, 0.24, 0.13), (0.3, 0.3, 0.16)),
-    "pile of books": Kind(book_pile, "object", (0.2, 0.26, 0.08), (0.24, 0.3, 0.16)),
-    "open book": Kind(open_book, "object", (0.3, 0.22, 0.04), (0.36, 0.26, 0.04)),
-    "tableware": Kind(tableware, "object", (0.3, 0.26, 0.08), (0.34, 0.28, 0.09)),
-    "candlestick": Kind(urn_candle, "object", (0.1, 0.1, 0.26), (0.1, 0.1, 0.36)),
-    "television": Kind(television, "object", (1.0, 0.2, 0.64), (1.25, 0.24, 0.76)),
-    "computer monitor": Kind(monitor, "object", (0.55, 0.42, 0.42), (0.65, 0.46, 0.48)),
+    "vase": FurnitureKind(vase, "object", (0.14, 0.14, 0.2), (0.2, 0.2, 0.32)),
+    "bowl": FurnitureKind(bowl, "object", (0.24, 0.24, 0.13), (0.3, 0.3, 0.16)),
+    "pile of books": FurnitureKind(book_pile, "object", (0.2, 0.26, 0.08), (0.24, 0.3, 0.16)),
+    "open book": FurnitureKind(open_book, "object", (0.3, 0.22, 0.04), (0.36, 0.26, 0.04)),
+    "tableware": FurnitureKind(tableware, "object", (0.3, 0.26, 0.08), (0.34, 0.28, 0.09)),
+    "candlestick": FurnitureKind(urn_candle, "object", (0.1, 0.1, 0.26), (0.1, 0.1, 0.36)),
+    "television": FurnitureKind(television, "object", (1.0, 0.2, 0.64), (1.25, 0.24, 0.76)),
+    "computer monitor": FurnitureKind(monitor, "object", (0.55, 0.42, 0.42), (0.65, 0.46, 0.48)),
 }

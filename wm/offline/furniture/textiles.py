@@ -4,7 +4,7 @@ import numpy as np
 import shapely
 
 from wm.offline.furniture.outlines import circle, rounded
-from wm.offline.furniture.piece import Kind, Model, Part, Size, of, pick
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, of, pick
 from wm.offline.furniture.solids import Real, Solid, box, extrude, lathe, rod, shift, turn
 from wm.offline.style.finish import Style
 
@@ -148,9 +148,9 @@ def tapestry(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "rug": Kind(rug, "flat", (1.6, 1.1, 0.008), (2.8, 2.0, 0.008)),
-    "round rug": Kind(round_rug, "flat", (1.4, 1.4, 0.008), (2.2, 2.2, 0.008)),
-    "bath mat": Kind(bath_mat, "flat", (0.65, 0.42, 0.008), (0.8, 0.5, 0.008)),
-    "curtains": Kind(curtains, "wall", (1.2, 0.08, 1.6), (2.6, 0.1, 2.6)),
-    "tapestry": Kind(tapestry, "wall", (0.8, 0.032, 1.2), (1.1, 0.036, 1.6)),
+    "rug": FurnitureKind(rug, "flat", (1.6, 1.1, 0.008), (2.8, 2.0, 0.008)),
+    "round rug": FurnitureKind(round_rug, "flat", (1.4, 1.4, 0.008), (2.2, 2.2, 0.008)),
+    "bath mat": FurnitureKind(bath_mat, "flat", (0.65, 0.42, 0.008), (0.8, 0.5, 0.008)),
+    "curtains": FurnitureKind(curtains, "wall", (1.2, 0.08, 1.6), (2.6, 0.1, 2.6)),
+    "tapestry": FurnitureKind(tapestry, "wall", (0.8, 0.032, 1.2), (1.1, 0.036, 1.6)),
 }

@@ -8,7 +8,7 @@ import shapely
 from wm.offline.furniture.common import COLUMN, frame_wood
 from wm.offline.furniture.outlines import arch, frame, rectangle, rounded
 from wm.offline.furniture.pictures import subject
-from wm.offline.furniture.piece import Kind, Model, Part, Size, Top, of
+from wm.offline.furniture.piece import FurnitureKind, Model, Part, Size, Top, of
 from wm.offline.furniture.solids import Point3, Real, ball, box, extrude, lathe, rod, rounded_box, shift, stretch, turn
 from wm.offline.style.finish import Rgb, Style
 
@@ -167,10 +167,10 @@ def folding_screen(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 KINDS = {
-    "picture": Kind(picture, "wall", (0.45, 0.035, 0.4), (0.9, 0.045, 0.7)),
-    "mirror": Kind(mirror, "wall", (0.5, 0.035, 0.8), (0.7, 0.045, 1.1)),
-    "wall clock": Kind(wall_clock, "wall", (0.32, 0.035, 0.32), (0.42, 0.04, 0.42)),
-    "fireplace": Kind(fireplace, "floor", (1.3, 0.42, 1.1), (1.7, 0.5, 1.3), front=0.9),
-    "grandfather clock": Kind(clock, "floor", (0.46, 0.28, 1.95), (0.54, 0.32, 2.15), front=0.3),
-    "folding screen": Kind(folding_screen, "floor", (1.3, 0.28, 1.6), (1.6, 0.36, 1.8)),
+    "picture": FurnitureKind(picture, "wall", (0.45, 0.035, 0.4), (0.9, 0.045, 0.7)),
+    "mirror": FurnitureKind(mirror, "wall", (0.5, 0.035, 0.8), (0.7, 0.045, 1.1)),
+    "wall clock": FurnitureKind(wall_clock, "wall", (0.32, 0.035, 0.32), (0.42, 0.04, 0.42)),
+    "fireplace": FurnitureKind(fireplace, "floor", (1.3, 0.42, 1.1), (1.7, 0.5, 1.3), front=0.9),
+    "grandfather clock": FurnitureKind(clock, "floor", (0.46, 0.28, 1.95), (0.54, 0.32, 2.15), front=0.3),
+    "folding screen": FurnitureKind(folding_screen, "floor", (1.3, 0.28, 1.6), (1.6, 0.36, 1.8)),
 }

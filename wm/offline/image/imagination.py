@@ -16,7 +16,7 @@ from wm.offline.arrangement.inventory import ABSENT, FLAVOUR
 from wm.offline.arrangement.room_type import room_type
 from wm.offline.furniture import KINDS, bath, kitchen, make_piece
 from wm.offline.style.finish import Finish, Rgb, Style, Surfaces
-from wm.offline.style.sheet import mix
+from wm.offline.style.style_sheet import mix_rgb
 from wm.offline.style.theme import style_of
 from wm.synth.backends import SceneContext
 from wm.types import SceneObject
@@ -73,7 +73,7 @@ def _surfaces(own: Surfaces, style: Style, rng: np.random.Generator) -> Surfaces
     wall, floor = (_finish(finish, table, style, rng) for finish, table in ((own.wall, WALLS), (own.floor, FLOORS)))
     tint = style.accents[int(rng.integers(len(style.accents)))]
     ceiling = _finish(own.ceiling, CEILINGS, style, rng)
-    trim = dataclasses.replace(own.trim, colors=tuple(mix(color, tint, 0.35) for color in own.trim.colors))
+    trim = dataclasses.replace(own.trim, colors=tuple(mix_rgb(color, tint, 0.35) for color in own.trim.colors))
     return Surfaces(wall=wall, floor=floor, ceiling=ceiling, trim=trim)
 
 
@@ -83,8 +83,8 @@ def _finish(own: Finish, table: tuple[tuple[str, float], ...], style: Style, rng
     material, scale = choices[int(rng.integers(len(choices)))]
     wood = style.slot(("wood", "dark_wood", "light_wood")[int(rng.integers(3))]).colors[0]
     accent = style.accents[int(rng.integers(len(style.accents)))]
-    base = wood if material in WOODEN else mix(own.colors[0], accent, float(rng.uniform(0.2, 0.55)))
-    darker, lighter = mix(base, (0.0, 0.0, 0.0), 0.35), mix(base, (1.0, 1.0, 1.0), 0.3)
+    base = wood if material in WOODEN else mix_rgb(own.colors[0], accent, float(rng.uniform(0.2, 0.55)))
+    darker, lighter = mix_rgb(base, (0.0, 0.0, 0.0), 0.35), mix_rgb(base, (1.0, 1.0, 1.0), 0.3)
     return Finish(material, (base, darker, lighter), scale, roughness=own.roughness, wear=own.wear)
 
 
@@ -107,7 +107,7 @@ def _recolored(finish: Finish, accents: tuple[Rgb, ...], rng: np.random.Generato
     accent, share = accents[int(rng.integers(len(accents)))], float(rng.uniform(0.25, 0.6))
     if finish.material == "glow":
         return finish
-    return dataclasses.replace(finish, colors=tuple(mix(color, accent, share) for color in finish.colors))
+    return dataclasses.replace(finish, colors=tuple(mix_rgb(color, accent, share) for color in finish.colors))
 
 
 def boxed_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ...]:

@@ -31,7 +31,7 @@ from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.host import cores
 from wm.offline.image.imagination import FURNISHED, SCENE, Imagination, imagined_scene, imagined_style
 from wm.offline.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
-from wm.offline.image.violations import KINDS, Violation, draw_violation
+from wm.offline.image.violations import KINDS, ScaffoldViolation, draw_violation
 from wm.offline.world.room import bake_settings
 from wm.offline.world.worker import Recipe, WorkerWorld
 from wm.offline.world.world import Shot, World
@@ -185,7 +185,7 @@ class ProceduralImages:
                 self._scenes[furniture] = imagined_scene(self.scene, furniture)
             return self._scenes[furniture]
 
-    def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> Violation | None:
+    def _violation(self, request: ImageRequest, scenery: Scenery, shot: Shot) -> ScaffoldViolation | None:
         rng = np.random.default_rng(_stream(request.seed, 0xBAD))
         objects = request.condition.objects != "none" or request.task == "furnish"
         shares = {kind: getattr(self.config, kind) for kind in KINDS}

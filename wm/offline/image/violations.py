@@ -13,7 +13,8 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
-from wm.geometry.plan.footprint import Portal, portals
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.site import room_site
 from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.offline.world.edit import Edit
@@ -33,7 +34,9 @@ TRIES = 12
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Violation:
+class ScaffoldViolation:
+    """One way in which a sample leaves the scaffold, and the edit of the world that draws it."""
+
     kind: str  # one of KINDS
     what: str  # label of the thing, "door" for a doorway
     edit: Edit
@@ -42,7 +45,7 @@ class Violation:
 def draw_violation(
     shares: Mapping[str, float], context: SceneContext, view: View, gbuffer: GBuffer, thing: np.ndarray, rng: np.random.Generator,
     *, objects: bool = True,
-) -> Violation | None:  # fmt: skip
+) -> ScaffoldViolation | None:  # fmt: skip
     """What goes wrong in one sample; None for nothing.
 
     Args:
@@ -60,7 +63,7 @@ def draw_violation(
 
 def violation(
     kind: str, context: SceneContext, view: View, gbuffer: GBuffer, thing: np.ndarray, rng: np.random.Generator
-) -> Violation | None:
+) -> ScaffoldViolation | None:
     """A violation of one kind, None where the view has nothing for it. Raises: ValueError for a kind that is not in KINDS."""
     if kind == "closed":
         return _closed(context, view, gbuffer, rng)
@@ -76,16 +79,16 @@ def violation(
     label = context.objects[chosen].label
     together = (chosen, *_on_top(context.objects, chosen))
     if kind == "missing":
-        return Violation(kind, label, Edit(removed=together))
+        return ScaffoldViolation(kind, label, Edit(removed=together))
     transform = _elsewhere(context, chosen, rng) if kind == "moved" else _once_more(context, view, chosen, gbuffer, thing, rng)
     if transform is None:
         return None
     if kind == "moved":
-        return Violation(kind, label, Edit(moved=tuple((k, transform) for k in together)))
-    return Violation(kind, label, Edit(added=((chosen, transform),)))
+        return ScaffoldViolation(kind, label, Edit(moved=tuple((k, transform) for k in together)))
+    return ScaffoldViolation(kind, label, Edit(added=((chosen, transform),)))
 
 
-def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.Generator) -> Violation | None:
+def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.Generator) -> ScaffoldViolation | None:
     """A doorway of the view's room that shows what lies behind it."""
     doors = []
     for k, portal in enumerate(portals(context.plan)):
@@ -93,7 +96,7 @@ def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.
             doors.append(k)
     if not doors:
         return None
-    return Violation("closed", "door", Edit(closed=(doors[int(rng.integers(len(doors)))],)))
+    return ScaffoldViolation("closed", "door", Edit(closed=(doors[int(rng.integers(len(doors)))],)))
 
 
 def _seen_through(portal: Portal, view: View, gbuffer: GBuffer) -> float:

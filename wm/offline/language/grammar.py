@@ -13,15 +13,15 @@ from typing import Any
 import numpy as np
 
 from wm.bounds import setting
+from wm.geometry.plan.records import WALL_THICKNESS
 from wm.offline.language.building import Building, building_of, draw
 from wm.offline.language.massing import draft
-from wm.offline.language.openings import Hole, place_openings
-from wm.offline.language.programme import CIRCULATION, Space, kind_of, read_programme
+from wm.offline.language.openings import Hole, draw_openings
+from wm.offline.language.programme import CIRCULATION, Space, read_programme, room_kind_of
 from wm.schema import BackendSettings
 from wm.synth.backends import SceneContext
 
 VERSION = "1"
-WALL_THICKNESS = 0.15
 _OF_OPENINGS = ("opening", "door", "window", "passage")
 
 
@@ -47,7 +47,7 @@ class Grammar:
             spaces = read_programme(rooms, building, rng)
             spaces, polygons = draft(spaces, building, rng)
             ceilings = _ceilings(spaces, building, rng)
-        holes = place_openings(polygons, spaces, ceilings, building, rng)
+        holes = draw_openings(polygons, spaces, ceilings, building, rng)
         return _as_json(spaces, polygons, ceilings, holes)
 
 
@@ -83,7 +83,7 @@ def _read_back(previous: str) -> tuple[list[Space], list[np.ndarray], list[int]]
     for (room_id, name), polygon in zip(names, polygons):
         x, y = polygon.T / 100
         area = float(abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))) / 2
-        spaces.append(Space(id=room_id, name=name, kind=kind_of(name), area=area))
+        spaces.append(Space(id=room_id, name=name, kind=room_kind_of(name), area=area))
     return spaces, polygons, heights
 
 

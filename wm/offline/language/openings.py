@@ -18,9 +18,9 @@ from wm.offline.language.programme import CIRCULATION, PRIVATE, PUBLIC, WET, Spa
 
 JAMB = 38  # cm from a wall's centre line to a door: 0.3 m of wall beside it
 TIGHT = 24  # where no more room is
-APART = 30  # cm of wall between two openings
+APART = 30  # cm of wall between two openings: many times what a plan may have (wm.geometry.plan.openings.APART)
 CORNER = 50  # cm from a window to the end of its wall
-OUTLOOK = 120  # cm of open air that a window is worth having for
+OUTLOOK = 120  # cm of open air before a window that is worth having: four times what a plan may have (wm.geometry.plan.rules)
 
 # Pairs of kinds that are joined where they touch, beside the way every room has to the core.
 _FRIENDS = {
@@ -36,7 +36,11 @@ _JOINED = 0.7  # probability that such a pair is
 
 @dataclasses.dataclass(frozen=True)
 class Hole:
-    """An opening from `low` to `high` along its side's line."""
+    """An opening that the grammar has drawn, from `low` to `high` along its side's line.
+
+    It stays apart from the plan's `Opening` (wm.geometry.plan.records) because it is made before there is a plan: it lies on a
+    side of the massing, in whole centimetres. grammar.py writes it as an opening of the plan's JSON.
+    """
 
     kind: str
     side: Side
@@ -47,7 +51,7 @@ class Hole:
     sill: int
 
 
-def place_openings(
+def draw_openings(
     polygons: Sequence[Int[np.ndarray, "_ 2"]],
     spaces: Sequence[Space],
     ceilings: Sequence[int],

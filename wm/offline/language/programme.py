@@ -13,7 +13,7 @@ CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private",
 
 
 @dataclasses.dataclass(frozen=True)
-class Kind:
+class RoomKind:
     """A kind of room: floor area range in square metres, zone, and rank from the front of the house (0) to its back."""
 
     name: str  # a sort of wm.synth.room_names: there is one kind for each
@@ -27,7 +27,7 @@ _ZONES = {
 }  # fmt: skip
 """Zones of sorts of rooms; the others are public."""
 _KINDS = {
-    name: Kind(name, area, _ZONES.get(name, PUBLIC), rank)
+    name: RoomKind(name, area, _ZONES.get(name, PUBLIC), rank)
     for name, area, rank in (
         ("corridor", (6.0, 14.0), 5.0),
         ("hall", (14.0, 24.0), 0.0),
@@ -59,11 +59,11 @@ class Space:
 
     id: str
     name: str
-    kind: Kind
+    kind: RoomKind
     area: float  # square metres to aim for
 
 
-def kind_of(room: str) -> Kind:
+def room_kind_of(room: str) -> RoomKind:
     """The kind a room's name speaks of; a public room of middling size where it speaks of none."""
     return _KINDS[room_sort(room)]
 
@@ -78,7 +78,7 @@ def read_programme(rooms: list[str], building: Building, rng: np.random.Generato
 
 def add_space(spaces: list[Space], room: str, building: Building, rng: np.random.Generator) -> int:
     """Appends one more room to the programme and returns its index."""
-    kind = kind_of(room)
+    kind = room_kind_of(room)
     share = float(rng.uniform(*building.share))
     area = kind.area[0] + share * (kind.area[1] - kind.area[0])
     same = sum(_slug(space.name) == _slug(room) for space in spaces)

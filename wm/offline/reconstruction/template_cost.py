@@ -22,7 +22,7 @@ from scipy import ndimage
 from wm.geometry.plan.site import Site
 from wm.geometry.rays.pinhole import project_points
 from wm.offline.reconstruction.kinds import Template
-from wm.offline.reconstruction.template_surface import Surface, surface_of
+from wm.offline.reconstruction.template_surface import TemplateSurface, surface_of
 from wm.synth.backends import Observation
 
 OUTLIER = 0.1
@@ -49,7 +49,7 @@ class Evidence:
     """Everything a fit looks at."""
 
     template: Template
-    surface: Surface
+    surface: TemplateSurface
     points: np.ndarray  # [n, 3] world points seen
     views: tuple[tuple[Observation, np.ndarray], ...]  # each with the distance to its mask, at half its resolution, pixels
     site: Site

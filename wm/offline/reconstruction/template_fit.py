@@ -19,6 +19,7 @@ import numpy as np
 import shapely
 from jaxtyping import Float
 
+from wm.geometry.placement.clearances import LIFT
 from wm.geometry.placement.upright import turn_between
 from wm.geometry.placement.upright_box import UprightBox
 from wm.geometry.plan.site import wall_yaw
@@ -26,7 +27,6 @@ from wm.offline.reconstruction.kinds import rebuilt
 from wm.offline.reconstruction.template_cost import Evidence, cost, nearest, residuals, seen_distances
 from wm.offline.reconstruction.template_surface import surface_of
 
-_LIFT = 0.002
 _ANCHORS = ((False, False), (False, True), (True, False), (True, True))
 _SAME_YAW = math.radians(6.0)
 _TRIED, _OF_A_YAW, _TRIES, _STEPS = 8, 2, 6, 12
@@ -136,11 +136,11 @@ def _held(box: UprightBox, evidence: Evidence) -> UprightBox:
     template = evidence.template
     if template.support == "floor":
         top = max(box.top, 0.05)
-        return dataclasses.replace(box, z=_LIFT, height=max(top - _LIFT, 0.05))
+        return dataclasses.replace(box, z=LIFT, height=max(top - LIFT, 0.05))
     if template.support == "flat":
-        return dataclasses.replace(box, z=_LIFT, height=float(template.piece.size[2]))
+        return dataclasses.replace(box, z=LIFT, height=float(template.piece.size[2]))
     if template.support == "ceiling":
-        return dataclasses.replace(box, height=max(evidence.site.ceiling - _LIFT - box.z, 0.05))
+        return dataclasses.replace(box, height=max(evidence.site.ceiling - LIFT - box.z, 0.05))
     if template.support == "wall":
         depth = float(template.piece.size[1]) if template.high[1] < _SHEET else box.depth
         return UprightBox(*_hung(_row(dataclasses.replace(box, depth=depth)), evidence).tolist())

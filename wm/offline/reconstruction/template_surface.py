@@ -14,7 +14,7 @@ _COUNT = 1200
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Surface:
+class TemplateSurface:
     """Points on a piece of furniture at the size it was built in."""
 
     size: np.ndarray  # [3] metres
@@ -24,11 +24,11 @@ class Surface:
     spacing: float  # metres between neighbouring points, about
 
 
-def surface_of(piece: Piece) -> Surface:
+def surface_of(piece: Piece) -> TemplateSurface:
     """Points spread over a piece's surface by area."""
     points, normals = surface_samples(piece.vertices, piece.faces, _COUNT)
     area = float(np.linalg.norm(face_crosses(piece.vertices[piece.faces]), axis=1).sum()) / 2
-    return Surface(size=piece.size, points=points, normals=normals, tree=KDTree(points), spacing=math.sqrt(area / _COUNT))
+    return TemplateSurface(size=piece.size, points=points, normals=normals, tree=KDTree(points), spacing=math.sqrt(area / _COUNT))
 
 
 def surface_samples(

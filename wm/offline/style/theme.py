@@ -16,7 +16,7 @@ import re
 
 from wm.offline.style.families import FAMILIES
 from wm.offline.style.finish import MATERIALS, SLOTS, Finish, Form, Light, Rgb, Style, Surfaces
-from wm.offline.style.sheet import Sheet, build, mix, rgb
+from wm.offline.style.style_sheet import StyleSheet, build_style, mix_rgb, rgb
 
 __all__ = ["MATERIALS", "SLOTS", "Finish", "Form", "Light", "Rgb", "Style", "Surfaces", "style_of"]
 
@@ -76,10 +76,10 @@ def style_of(theme: str) -> Style:
     sheet = FAMILIES[family or NEUTRAL]
     if family is None:
         sheet = turned(sheet, theme)
-    style = build(theme, family or "neutral", tinted(sheet, words))
+    style = build_style(theme, family or "neutral", tinted(sheet, words))
     return dataclasses.replace(
         style,
-        rooms=tuple((kind, refinished(surfaces, kind, words)) for kind, surfaces in style.rooms),
+        rooms=tuple((kind, refinished_surfaces(surfaces, kind, words)) for kind, surfaces in style.rooms),
         light=relit(style.light, words),
         form=reshaped(style.form, words),
     )
@@ -98,7 +98,7 @@ def family_of(words: list[str]) -> str | None:
     return best if votes[best] else None
 
 
-def turned(sheet: Sheet, theme: str) -> Sheet:
+def turned(sheet: StyleSheet, theme: str) -> StyleSheet:
     """The neutral sheet with its textiles and accents turned around the colour wheel by a hash of the theme."""
     digest = hashlib.sha256(" ".join(words_of(theme)).encode()).digest()
     turn = digest[0] / 256
@@ -107,7 +107,7 @@ def turned(sheet: Sheet, theme: str) -> Sheet:
         hue, light, saturation = colorsys.rgb_to_hls(*rgb(code))
         return code_of(colorsys.hls_to_rgb((hue + turn) % 1.0, light, saturation))
 
-    wall = dataclasses.replace(sheet.wall, colors=(mix(rgb("e6e1d8"), rgb(around("c9a878")), 0.35),))
+    wall = dataclasses.replace(sheet.wall, colors=(mix_rgb(rgb("e6e1d8"), rgb(around("c9a878")), 0.35),))
     return dataclasses.replace(
         sheet, wall=wall, fabric=around("5f7a86"), accent=around(sheet.accent), rug=around("b89a80"),
         accents=tuple(around(c) for c in sheet.accents),
@@ -119,7 +119,7 @@ def code_of(color: Rgb) -> str:
     return "".join(f"{round(min(max(c, 0.0), 1.0) * 255):02x}" for c in color)
 
 
-def tinted(sheet: Sheet, words: list[str]) -> Sheet:
+def tinted(sheet: StyleSheet, words: list[str]) -> StyleSheet:
     """Colour words dye the textiles (the first word) and the accents (the second); "dark wood" and "light wood" the wood.
 
     "white walls" says nothing of the textiles.
@@ -134,13 +134,13 @@ def tinted(sheet: Sheet, words: list[str]) -> Sheet:
         sheet = dataclasses.replace(sheet, accent=colors[1], rug_border=colors[1])
     pairs = list(itertools.pairwise(words))
     if ("dark", "wood") in pairs:
-        sheet = dataclasses.replace(sheet, wood=code_of(mix(rgb(sheet.wood), rgb("3a2216"), 0.5)))
+        sheet = dataclasses.replace(sheet, wood=code_of(mix_rgb(rgb(sheet.wood), rgb("3a2216"), 0.5)))
     if ("light", "wood") in pairs or ("pale", "wood") in pairs:
-        sheet = dataclasses.replace(sheet, wood=code_of(mix(rgb(sheet.wood), rgb("e0c8a0"), 0.7)))
+        sheet = dataclasses.replace(sheet, wood=code_of(mix_rgb(rgb(sheet.wood), rgb("e0c8a0"), 0.7)))
     return sheet
 
 
-def refinished(surfaces: Surfaces, kind: str, words: list[str]) -> Surfaces:
+def refinished_surfaces(surfaces: Surfaces, kind: str, words: list[str]) -> Surfaces:
     """The first material word of each sort chooses floors ("marble") and walls ("brick"); wet rooms keep their tiles."""
     if kind in ("bathroom", "kitchen"):
         return surfaces

@@ -1,7 +1,7 @@
-"""Changes of one image of the world: things gone, moved or there twice, doorways shut.
+"""Changes of one image of the world: things removed, moved or added a second time, and doorways closed.
 
 An edited mesh has faces of its own, each of which looks like some face of the mesh that was dressed and lit: a thing keeps its
-material and the light of its place, and a door leaf borrows the trim of its opening. So an edit costs a BVH and no bake.
+material and the light of its place, and a door leaf borrows the trim of its opening. So an edit takes a new BVH but no bake.
 """
 
 import dataclasses
@@ -10,7 +10,9 @@ import numpy as np
 from jaxtyping import Int
 
 from wm.geometry.mesh.scene_mesh import BOX_CORNERS, BOX_FACES, face_crosses
-from wm.geometry.plan.footprint import FloorPlan, Portal, portals
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.portal import Portal
+from wm.geometry.plan.records import FloorPlan
 from wm.types import OUTSIDE, Mesh, SurfaceKind
 
 LEAF = 0.04
@@ -21,7 +23,7 @@ SNUG = 0.005
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Edit:
-    """What is otherwise. Objects are indices into the scene's; movements are [4, 4] transformations of the world."""
+    """The changes. Objects are indices into the scene's; movements are [4, 4] transformations of the world."""
 
     removed: tuple[int, ...] = ()
     moved: tuple[tuple[int, np.ndarray], ...] = ()

@@ -14,7 +14,7 @@ F32 = np.float32
 GAIN = F32(1.6)
 """Brings gradient noise, whose extremes are rare, to a standard deviation of about 0.35."""
 PART = 1 << 12
-"""Points that noise is computed for at a time."""
+"""Points for which noise is computed at once."""
 _PRIMES = (0x9E3779B1, 0x85EBCA77, 0x27D4EB2F)
 
 
@@ -28,7 +28,7 @@ def hash_cells(
 
 
 def _mixed(h: UInt32[np.ndarray, "..."]) -> UInt32[np.ndarray, "..."]:
-    """h with every bit depending on all; h itself is used up."""
+    """h with every bit depending on all others; the array h is overwritten."""
     h ^= h >> np.uint32(16)
     h *= np.uint32(0x7FEB352D)
     h ^= h >> np.uint32(15)

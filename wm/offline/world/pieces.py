@@ -18,10 +18,9 @@ from wm.geometry.mesh.scene_mesh import face_crosses
 from wm.offline.style.finish import Finish, Style
 from wm.offline.world.light.sources import glow_color
 from wm.offline.world.materials import Points, evaluate
-from wm.offline.world.noise import random_cells
+from wm.offline.world.noise import F32, random_cells
 from wm.types import SceneObject
 
-F32 = np.float32
 GRAINED = ("wood", "painted_wood", "metal", "panelling", "textile", "leather", "lacquer")
 """Materials with a grain, which runs along the longest side of the part; the rest keep the object's own axes."""
 SPECULAR = 0.05
@@ -159,7 +158,7 @@ def _recolored(albedo: np.ndarray, finish: Finish, pieces: Pieces, face: np.ndar
 def _finish(style: Style, slot: str, color: np.ndarray) -> Finish:
     try:
         return style.slot(slot)
-    except KeyError:  # a slot of somebody else's objects: painted in its own colour
+    except KeyError:  # a slot that the style does not know: painted in the slot's own colour
         return Finish("paint", ((float(color[0]), float(color[1]), float(color[2])),))
 
 

@@ -1,7 +1,7 @@
-"""Mip pyramids over many rectangular images of one texel size, sampled trilinearly: how finished surfaces are looked up.
+"""Mip pyramids over many rectangular images of one texel size, sampled trilinearly; finished surfaces are looked up in them.
 
 Level k halves level k - 1 (the mean of 2 x 2, the last row or column repeated where the size is odd) until a side is 1. Texels
-are sRGB in 16 bits a channel, four channels in one 64-bit word, so that a look-up is one gather.
+are sRGB in 16 bits per channel, four channels in one 64-bit word, so that a look-up is one gather.
 """
 
 import dataclasses

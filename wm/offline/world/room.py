@@ -1,11 +1,14 @@
-"""One room as it looks: its surfaces dressed, its light baked, both put together into textures ready to be looked up."""
+"""The appearance of one room: its surfaces are dressed, its light is baked, and both are put together into textures."""
 
 import dataclasses
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from wm.geometry.plan import footprint
+from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.openings import portals
+from wm.geometry.plan.records import FloorPlan
+from wm.geometry.plan.site import WallOpening, wall_opening
 from wm.geometry.rays.raycast import RayScene
 from wm.offline.arrangement.room_type import room_type
 from wm.offline.style.finish import Style
@@ -19,7 +22,7 @@ from wm.offline.world.light import (
     build_facets,
     build_probes,
     ceiling_emitters,
-    exposed,
+    in_free_air,
     lamp_emitters,
     luxel_positions,
     pane_emitters,
@@ -29,7 +32,7 @@ from wm.offline.world.light import (
 from wm.offline.world.light.facets import Facets
 from wm.offline.world.pieces import SPECULAR, Pieces, build_pieces, mean_albedo
 from wm.offline.world.pyramid import Pyramid, build_pyramid
-from wm.offline.world.surfaces import Chart, Gap, Interior, Sheet, dress
+from wm.offline.world.surfaces import Chart, Interior, TexelSheet, dress
 from wm.offline.world.tone import tone
 from wm.types import OUTSIDE, SceneObject, SurfaceKind
 
@@ -39,7 +42,7 @@ PER_CELL = 6
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class BakedRoom:
-    """What a renderer needs of a room."""
+    """What a renderer needs to know of a room."""
 
     charts: RoomCharts
     textures: Pyramid  # finished colour of each chart, sRGB
@@ -52,7 +55,7 @@ class BakedRoom:
 
 
 def bake_room(
-    scene: RayScene, plan: footprint.FloorPlan, room: int, objects: tuple[SceneObject, ...], style: Style,
+    scene: RayScene, plan: FloorPlan, room: int, objects: tuple[SceneObject, ...], style: Style,
     *, sun: np.ndarray, seed: int, settings: BakeSettings,
 ) -> BakedRoom:  # fmt: skip
     """Dress and light one room of a scene whose mesh is `assemble_scene(structure, objects)`."""
@@ -60,10 +63,10 @@ def bake_room(
     charts = room_charts(scene.mesh, room, settings.cell)
     spans = [_chart(charts, k, settings.cell / PER_CELL) for k in range(len(charts.atlas.chart_start))]
     with ThreadPoolExecutor(2) as pool:
-        sheets = list(pool.map(lambda chart: dress(chart, _gaps(plan, room, chart), interior), spans))
+        sheets = list(pool.map(lambda chart: dress(chart, _openings(plan, room, chart), interior), spans))
     pieces, facets, facet_faces = _objects(scene, room, objects, style, interior.seed, settings)
     probes = build_probes(
-        facets, exposed(scene, facets.position, facets.normal), spacing=settings.probe_spacing, budget=settings.probes
+        facets, in_free_air(scene, facets.position, facets.normal), spacing=settings.probe_spacing, budget=settings.probes
     )
     points = _light_points(charts, sheets, pieces, facets, facet_faces, probes)
     light = style.light
@@ -109,12 +112,12 @@ def bake_settings(texel_size: float) -> BakeSettings:
     )
 
 
-def _interior(plan: footprint.FloorPlan, room: int, style: Style, seed: int) -> Interior:
+def _interior(plan: FloorPlan, room: int, style: Style, seed: int) -> Interior:
     kind = room_type(plan.rooms[room].name)
     return Interior(
         name=plan.rooms[room].name,
         kind=kind,
-        polygon=np.asarray(footprint.interior_polygon(plan, room).exterior.coords)[:-1],
+        polygon=np.asarray(interior_polygon(plan, room).exterior.coords)[:-1],
         height=plan.rooms[room].ceiling_height,
         style=style,
         surfaces=style.surfaces(kind),
@@ -136,19 +139,20 @@ def _chart(charts: RoomCharts, number: int, texel: float) -> Chart:
     )
 
 
-def _gaps(plan: footprint.FloorPlan, room: int, chart: Chart) -> tuple[Gap, ...]:
+def _openings(plan: FloorPlan, room: int, chart: Chart) -> tuple[WallOpening, ...]:
     """The openings of a room that lie in a wall chart's plane, in its own metres."""
     if chart.kind != SurfaceKind.WALL:
         return ()
-    gaps = []
-    for portal in footprint.portals(plan):
+    openings = []
+    for portal in portals(plan):
         if room not in portal.rooms:
             continue
-        ends = portal.ends - chart.origin[:2]
-        off, along = ends @ chart.normal[:2], np.sort(ends @ chart.u[:2])
+        off = (portal.ends - chart.origin[:2]) @ chart.normal[:2]
         if np.ptp(off) < 0.02 and -0.5 < off.mean() < 0.05:
-            gaps.append(Gap(kind=portal.kind, left=float(along[0]), right=float(along[1]), sill=portal.sill, head=portal.head))
-    return tuple(gaps)
+            openings.append(
+                wall_opening(portal.kind, portal.ends, portal.sill, portal.head, start=chart.origin[:2], direction=chart.u[:2])
+            )
+    return tuple(openings)
 
 
 def _objects(
@@ -164,7 +168,7 @@ def _objects(
 
 
 def _light_points(
-    charts: RoomCharts, sheets: list[Sheet], pieces: Pieces, facets: Facets, facet_faces: np.ndarray, probes: Probes
+    charts: RoomCharts, sheets: list[TexelSheet], pieces: Pieces, facets: Facets, facet_faces: np.ndarray, probes: Probes
 ) -> LightPoints:
     atlas = charts.atlas
     texels = len(atlas.inside)
@@ -195,7 +199,7 @@ def _cell_means(image: np.ndarray, shape: np.ndarray) -> np.ndarray:
     return image.reshape(3, rows, PER_CELL, columns, PER_CELL).mean(axis=(2, 4)).reshape(3, -1).T
 
 
-def _shade(charts: RoomCharts, number: int, sheet: Sheet, chart: Chart, baked: list[np.ndarray]) -> np.ndarray:
+def _shade(charts: RoomCharts, number: int, sheet: TexelSheet, chart: Chart, baked: list[np.ndarray]) -> np.ndarray:
     """[h, w, 3] sRGB: the sheet under the baked light, its relief lit from where the light comes."""
     atlas = charts.atlas
     rows, columns = (int(k) for k in atlas.chart_shape[number])

@@ -1,4 +1,4 @@
-"""What a screen shows of light: the tone curve, and an eye that is used to the light's colour."""
+"""From light to what a screen shows: the tone curve, and adaptation to the light's colour."""
 
 import numpy as np
 from jaxtyping import Float
@@ -19,7 +19,8 @@ def tone(radiance: Float[np.ndarray, "..."], *, exposure: float = 1.0) -> Float[
 
 
 def adapted(light: Float[np.ndarray, "n 3"], mean: Float[np.ndarray, "3"], share: float) -> Float[np.ndarray, "n 3"]:
-    """Linear light as an eye sees it that is used to its mean: as bright as before, the mean's cast to the power 1 - share.
+    """Linear light as an eye adapted to its mean sees it: as bright as before, with the mean's cast raised to the power 1 -
+    share.
 
     Source: von Kries adaptation, on the Rec. 709 primaries instead of the cones.
     """

@@ -1,7 +1,7 @@
-"""A world in a process of its own: shading holds Python's interpreter lock, and painting has other work for it.
+"""A world in a process of its own: shading holds Python's interpreter lock, which painting needs for other work.
 
 The worker (wm.process) reads a recipe for a world from its first pipe, then answers every camera that arrives on one of its
-pipes with a shot, a thread a pipe, until they are closed.
+pipes with a shot, one thread per pipe, until they are closed.
 """
 
 import dataclasses
@@ -73,7 +73,7 @@ def _asked(lane: Connection, question: tuple[Camera, Edit | None]) -> Any:
 
 
 def serve(pipes: list[Connection]) -> None:
-    """Answers until every pipe is closed; of a recipe that no world can be made from, with the error."""
+    """Answers until every pipe is closed; where no world can be made from the recipe, every answer is the error."""
     try:
         recipe = pipes[0].recv()
     except EOFError:

@@ -30,7 +30,7 @@ from wm.synth.backends import SceneContext
 from wm.types import OUTSIDE, Camera, GBuffer, Mesh, SceneObject, SurfaceKind
 
 KEPT = 32
-"""Rooms kept baked; the least recently seen go first."""
+"""Rooms whose bake is kept; the least recently seen are dropped first."""
 VISIBLE = 0.02
 """Difference of sRGB values between neighbours from which a pixel is worth more samples."""
 POLISHED = 0.1
@@ -76,7 +76,7 @@ class World:
         return tuple(thing.label for thing in self._objects)
 
     def room(self, index: int) -> BakedRoom:
-        """A room's textures and light, baked now if they are not at hand."""
+        """A room's textures and light, baked now unless they are kept."""
         with self._lock:
             if index not in self._rooms:
                 self._rooms[index] = bake_room(
@@ -89,7 +89,7 @@ class World:
             return self._rooms[index]
 
     def edited(self, edit: Edit) -> "World":
-        """The world with some things elsewhere, gone or closed, in the light that was baked for all of them in their places."""
+        """The world with some things moved, removed or closed, in the light that was baked before the change."""
         other = copy.copy(self)
         other.mesh, other._source = edited_mesh(self.mesh, self._plan, edit)
         other._scene = build_ray_scene(other.mesh)
@@ -97,7 +97,7 @@ class World:
         return other
 
     def shoot(self, camera: Camera, edit: Edit | None = None) -> Shot:
-        """The image of a camera: one sample a pixel, supersampling^2 where surfaces meet."""
+        """The image of a camera: one sample per pixel, supersampling^2 of them where surfaces meet."""
         if edit is not None:
             return self.edited(edit).shoot(camera)
         gbuffer = cast(self._scene, camera)

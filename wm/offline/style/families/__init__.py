@@ -5,9 +5,9 @@ from wm.offline.style.families.historic import BAROQUE, GOTHIC, ROMAN, VICTORIAN
 from wm.offline.style.families.imagined import CLOCKWORK, CYBERPUNK, SURREAL
 from wm.offline.style.families.regional import COASTAL, JAPANESE, MOROCCAN, RUSTIC
 from wm.offline.style.families.retro import ART_DECO, MIDCENTURY
-from wm.offline.style.sheet import Sheet
+from wm.offline.style.style_sheet import StyleSheet
 
-FAMILIES: dict[str, Sheet] = {
+FAMILIES: dict[str, StyleSheet] = {
     "gothic": GOTHIC,
     "victorian": VICTORIAN,
     "baroque": BAROQUE,

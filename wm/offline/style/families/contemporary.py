@@ -1,9 +1,9 @@
 """Families of today."""
 
 from wm.offline.style.finish import Form
-from wm.offline.style.sheet import Sheet, finish, light
+from wm.offline.style.style_sheet import StyleSheet, finish, light
 
-SCANDINAVIAN = Sheet(
+SCANDINAVIAN = StyleSheet(
     words=("scandinavian", "nordic", "scandi", "swedish", "danish", "norwegian", "finnish", "hygge", "ikea", "japandi"),
     form=Form("tapered", "slats", "flat", "drum", softness=0.6, ornament=0.15),
     wall=finish("paint", "f1efe9", scale=0.02, roughness=0.9),
@@ -35,7 +35,7 @@ SCANDINAVIAN = Sheet(
     light=light("fff1dc", 0.8, 32, 215, "cfe0f2", 0.85, "ffdcae", 0.6),
 )
 
-MINIMALIST = Sheet(
+MINIMALIST = StyleSheet(
     words=("minimalist", "minimal", "bauhaus", "monochrome", "zen", "clean", "museum"),
     form=Form("slab", "plain", "flat", "globe", softness=0.3, ornament=0.0),
     wall=finish("paint", "f3f3f1", scale=0.02, roughness=0.9, wear=0.0),
@@ -62,7 +62,7 @@ MINIMALIST = Sheet(
     light=light("fff6e8", 0.85, 40, 215, "dbe6f2", 0.9, "fff0d8", 0.55),
 )
 
-MODERN = Sheet(
+MODERN = StyleSheet(
     words=(
         "modern",
         "contemporary",
@@ -109,7 +109,7 @@ MODERN = Sheet(
     light=light("fff0d8", 0.85, 36, 210, "cddff2", 0.75, "ffe0b0", 0.65),
 )
 
-INDUSTRIAL = Sheet(
+INDUSTRIAL = StyleSheet(
     words=(
         "industrial",
         "warehouse",

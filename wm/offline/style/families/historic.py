@@ -1,9 +1,9 @@
 """Families of the past, up to the nineteenth century."""
 
 from wm.offline.style.finish import Form
-from wm.offline.style.sheet import Sheet, finish, light
+from wm.offline.style.style_sheet import StyleSheet, finish, light
 
-GOTHIC = Sheet(
+GOTHIC = StyleSheet(
     words=("gothic", "medieval", "cathedral", "castle", "vampire", "dracula", "haunted", "monastery", "abbey", "knight"),
     form=Form("turned", "pointed_arch", "pointed", "candle", softness=0.6, ornament=0.9),
     wall=finish("wallpaper_damask", "5a2328", "7c3a36", "a5753f", scale=0.6, roughness=0.8),
@@ -55,7 +55,7 @@ GOTHIC = Sheet(
     light=light("ffd9a8", 0.55, 24, 200, "aebcd6", 0.45, "ffb566", 0.95),
 )
 
-VICTORIAN = Sheet(
+VICTORIAN = StyleSheet(
     words=("victorian", "edwardian", "antique", "dickensian", "british", "english"),
     form=Form("turned", "spindle", "raised", "cone", softness=0.8, ornament=0.8),
     wall=finish("wallpaper_damask", "2f5a52", "4a776a", "c2a767", scale=0.5, roughness=0.8),
@@ -92,7 +92,7 @@ VICTORIAN = Sheet(
     light=light("ffdfb0", 0.6, 30, 220, "bccbe0", 0.5, "ffbf74", 0.9),
 )
 
-BAROQUE = Sheet(
+BAROQUE = StyleSheet(
     words=("baroque", "rococo", "palace", "versailles", "royal", "opulent", "renaissance", "regal", "louis", "imperial"),
     form=Form("cabriole", "round_arch", "arched", "candle", softness=0.9, ornament=1.0),
     wall=finish("wallpaper_damask", "d9c48f", "c2a35f", "f0e3bb", scale=0.7, roughness=0.6),
@@ -129,7 +129,7 @@ BAROQUE = Sheet(
     light=light("ffe8c0", 0.8, 35, 210, "c8d8f0", 0.6, "ffcf8a", 0.9),
 )
 
-ROMAN = Sheet(
+ROMAN = StyleSheet(
     words=(
         "roman",
         "rome",

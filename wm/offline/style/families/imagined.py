@@ -1,9 +1,9 @@
 """Families of worlds that are not."""
 
 from wm.offline.style.finish import Form
-from wm.offline.style.sheet import Sheet, finish, light
+from wm.offline.style.style_sheet import StyleSheet, finish, light
 
-CYBERPUNK = Sheet(
+CYBERPUNK = StyleSheet(
     words=(
         "cyberpunk",
         "futuristic",
@@ -47,7 +47,7 @@ CYBERPUNK = Sheet(
     light=light("ff8ad0", 0.15, 12, 250, "5a4fd0", 0.45, "8ae8ff", 1.0),
 )
 
-CLOCKWORK = Sheet(
+CLOCKWORK = StyleSheet(
     words=("clockwork", "clockmaker", "clock", "steampunk", "gears", "mechanical", "automaton", "orrery", "brass", "copper"),
     form=Form("turned", "round_arch", "raised", "globe", softness=0.7, ornament=0.75),
     wall=finish("wallpaper_gears", "2f4a42", "8a7848", scale=0.38, contrast=0.5, roughness=0.7),
@@ -95,7 +95,7 @@ CLOCKWORK = Sheet(
     light=light("ffe2b4", 0.8, 28, 205, "c6dae2", 0.65, "ffb962", 0.9),
 )
 
-SURREAL = Sheet(
+SURREAL = StyleSheet(
     words=(
         "surreal",
         "dream",

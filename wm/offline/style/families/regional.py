@@ -1,9 +1,9 @@
 """Families of a place: the country, the shore, Japan, Morocco."""
 
 from wm.offline.style.finish import Form
-from wm.offline.style.sheet import Sheet, finish, light
+from wm.offline.style.style_sheet import StyleSheet, finish, light
 
-RUSTIC = Sheet(
+RUSTIC = StyleSheet(
     words=(
         "rustic",
         "cabin",
@@ -55,7 +55,7 @@ RUSTIC = Sheet(
     light=light("ffd7a0", 0.6, 22, 225, "b8cce4", 0.5, "ffb866", 0.95),
 )
 
-COASTAL = Sheet(
+COASTAL = StyleSheet(
     words=(
         "coastal",
         "beach",
@@ -109,7 +109,7 @@ COASTAL = Sheet(
     light=light("fff2d8", 1.0, 48, 220, "9fd0f5", 0.95, "ffe0b0", 0.5),
 )
 
-JAPANESE = Sheet(
+JAPANESE = StyleSheet(
     words=("japanese", "tea", "ryokan", "tatami", "kyoto", "samurai", "oriental", "shoji", "edo", "onsen"),
     form=Form("slab", "plain", "slats", "lantern", softness=0.4, ornament=0.2, low=0.72),
     wall=finish("panelling", "efe6d0", "5a3c24", "f7f0de", scale=0.6, contrast=0.7, roughness=0.9),
@@ -137,7 +137,7 @@ JAPANESE = Sheet(
     light=light("fff0d0", 0.7, 28, 215, "d8e6ea", 0.8, "ffdca0", 0.7),
 )
 
-MOROCCAN = Sheet(
+MOROCCAN = StyleSheet(
     words=(
         "moroccan",
         "bohemian",

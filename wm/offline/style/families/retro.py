@@ -1,9 +1,9 @@
 """Families of the twentieth century."""
 
 from wm.offline.style.finish import Form
-from wm.offline.style.sheet import Sheet, finish, light
+from wm.offline.style.style_sheet import StyleSheet, finish, light
 
-ART_DECO = Sheet(
+ART_DECO = StyleSheet(
     words=("deco", "gatsby", "twenties", "jazz", "glamour", "glamorous", "casino", "theatre", "hollywood"),
     form=Form("tapered", "round_arch", "arched", "globe", softness=0.8, ornament=0.6),
     wall=finish("wallpaper_stripe", "1f4a4a", "2d6060", scale=0.3, roughness=0.6),
@@ -33,7 +33,7 @@ ART_DECO = Sheet(
     light=light("ffe4b8", 0.5, 25, 215, "b8cbe8", 0.45, "ffd08a", 0.95),
 )
 
-MIDCENTURY = Sheet(
+MIDCENTURY = StyleSheet(
     words=(
         "midcentury",
         "retro",

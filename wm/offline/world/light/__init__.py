@@ -1,4 +1,14 @@
-"""Light of the procedural world: where it is stored, where it comes from, and how it gets there."""
+"""Light of the offline world.
+
+    bake         bake: what every light point of a room receives
+    sources      panes, sun and lamps as sample points
+    transport    the rays between sources and light points
+    environment  what the middle of a room sees all about
+    luxels       the light points of a room: on its structure and on its objects
+    charts       light points on the structure
+    facets       light points on the triangles of objects
+    probes       the few of those at which light is computed
+"""
 
 from wm.offline.world.light.bake import BakeSettings, LightField, Sources, bake
 from wm.offline.world.light.charts import RoomCharts, chart_places, luxel_positions, room_charts
@@ -15,10 +25,10 @@ from wm.offline.world.light.sources import (
     soften,
     sun_direction,
 )
-from wm.offline.world.light.transport import exposed
+from wm.offline.world.light.transport import in_free_air
 
 __all__ = [
     "BakeSettings", "Emitter", "Facets", "LightField", "LightPoints", "Probes", "RoomCharts", "Sources", "bake", "build_facets",
-    "build_probes", "ceiling_emitters", "chart_places", "exposed", "facet_weights", "glow_color", "lamp_emitters", "look_up",
+    "build_probes", "ceiling_emitters", "chart_places", "facet_weights", "glow_color", "in_free_air", "lamp_emitters", "look_up",
     "luxel_positions", "pane_emitters", "room_charts", "soften", "sun_direction",
 ]  # fmt: skip

@@ -4,7 +4,7 @@ Notation: e = irradiance / pi, so a matt surface of albedo a shows radiance a e.
 cosine-weighted ray j from point i, and radiosity a e of what it hits,
     e_i = d_i + mean_j a_h(i,j) e_h(i,j)          (+ the radiance of sources nearer than NEAR, which sampling d would make noisy)
 is iterated as a gather: rays are traced once, bounces are table look-ups. Light the room loses through doors comes back as the
-room's own mean. Tiers of work: per room, R rays a point and one shadow ray per point and source sample; per bounce, one gather.
+room's own mean. Tiers of work: per room, R rays per point and one shadow ray per point and source sample; per bounce, one gather.
 Source: Cohen and Wallace, Radiosity and Realistic Image Synthesis, 1993, gathering; the bend vector is ours: the direction that
 light comes from, by which relief is shaded: e(n + g) ~ e(n) (1 + bend . g).
 """
@@ -23,14 +23,14 @@ from wm.offline.world.light.transport import directions_about, in_chunks, mirror
 from wm.offline.world.tone import adapted
 
 BURIED = 0.5
-"""Share of rays that hit a surface from behind, above which a point lies inside a solid and its darkness is nobody's."""
+"""Share of rays that hit a surface from behind, above which a point lies inside a solid, so that its darkness is not spread."""
 BRIGHT, RANGE = 1.7, 1.7
-"""In multiples of a room's target: e above which light is compressed, and how far beyond it ends. What an eye does that looks at
-the wall behind a lamp and at the room in one glance."""
+"""In multiples of a room's target: e above which light is compressed, and how far beyond it ends. An eye does the same that looks
+at a room and at the wall behind a lamp at once."""
 
 ADAPTED = 0.5
-"""How far an eye takes the colour of a room's light for white: walls that warm each other at every bounce dye a room in the end
-as no visitor would see it, and a room that keeps none of its cast has no mood."""
+"""How far an eye adapts to the colour of a room's light: without adaptation, walls that tint each other at every bounce would
+give a cast that no visitor sees; with full adaptation, no cast would be left."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -63,9 +63,9 @@ class BakeSettings:
     cell: float = 0.06  # metres between light points on structure
     spacing: float = 0.15  # metres between corners that store light on objects
     probe_spacing: float = 0.09  # metres between the probes that light is computed at on objects
-    probes: int = 24000  # a room at most
-    rays: int = 80  # a point
-    sun_rays: int = 6  # a point
+    probes: int = 24000  # per room at most
+    rays: int = 80  # per point
+    sun_rays: int = 6  # per point
     bounces: int = 4
     target: float = 0.23  # mean radiance that a room is lit to
     ambient: float = 0.05  # share of the mean e that reaches even hidden places

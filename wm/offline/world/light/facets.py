@@ -120,13 +120,13 @@ def _cell_middle(weights: np.ndarray, n: int) -> np.ndarray:
 
 
 def _place_keys(points: np.ndarray, step: float) -> np.ndarray:
-    """One integer per place on a grid of `step` metres (21 bits an axis)."""
+    """One integer per place on a grid of `step` metres (21 bits per axis)."""
     cell = np.round((points - points.min(axis=0)) / step).astype(np.int64) & 0x1FFFFF
     return cell[:, 0] | (cell[:, 1] << 21) | (cell[:, 2] << 42)
 
 
 def _keys(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    """One integer per place (1 mm, 17 bits an axis) and direction of the normal (4 bits an axis)."""
+    """One integer per place (1 mm, 17 bits per axis) and direction of the normal (4 bits per axis)."""
     cell = np.round((points - points.min(axis=0)) / 1e-3).astype(np.int64) & 0x1FFFF
     turn = np.round((normals + 1) * 4).astype(np.int64)
     place = cell[:, 0] | (cell[:, 1] << 17) | (cell[:, 2] << 34)

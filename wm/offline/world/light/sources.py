@@ -1,6 +1,6 @@
 """Where a room's light comes from: the sky in its panes, the sun through them, its lamps, and a ceiling light where it has none.
 
-Every source is a set of sample points with area and radiance, made once a room from low-discrepancy sequences. Radiances are
+Every source is a set of sample points with area and radiance, made once per room from low-discrepancy sequences. Radiances are
 relative: wm.offline.world.light.bake scales daylight and lamps so that every room is legible at the scene's one exposure.
 """
 

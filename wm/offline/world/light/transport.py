@@ -18,12 +18,12 @@ from wm.types import SurfaceKind
 
 NEAR = 0.5  # metres within which a pane is found by rays and not sampled
 SOFT = 0.05  # square metres added to squared distances: no source is a point
-_AT_LAMP = np.float32(0.03)  # metres before a lamp's point at which shadow rays end; what is nearer gets no light of it
-_ROWS = 400  # light points a chunk: with 80 rays each, what one core traces at a time
+_AT_LAMP = np.float32(0.03)  # metres before a lamp's point at which shadow rays end; what is nearer gets no light from it
+_ROWS = 400  # light points per chunk: with 80 rays each, what one core traces at a time
 
 
 def sampled_light(scene: RayScene, points: LightPoints, live: np.ndarray, emitters: list[Emitter], seed: int) -> np.ndarray:
-    """[l, 3] e that sources farther than NEAR send directly: one shadow ray a sample."""
+    """[l, 3] e that sources farther than NEAR send directly: one shadow ray per sample."""
     total = np.zeros((len(live), 3), np.float32)
 
     def gather(part: slice) -> None:
@@ -69,7 +69,7 @@ def sunlight(
     return total
 
 
-def exposed(scene: RayScene, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
+def in_free_air(scene: RayScene, position: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """[n] bool: whether a point on a surface stands in free air: most of five rays from it meet no surface from behind."""
     free = np.empty(len(position), bool)
     tilted = np.array([[0.0, 0.0, 1.0], [0.8, 0.1, 0.6], [-0.7, 0.2, 0.7], [0.1, 0.8, 0.6], [-0.2, -0.7, 0.7]], np.float32)

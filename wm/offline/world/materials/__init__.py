@@ -1,8 +1,17 @@
-"""Procedural materials: what each name of `wm.offline.style.finish.MATERIALS` looks like."""
+"""Procedural materials: what each name of `wm.offline.style.finish.MATERIALS` looks like.
+
+    material_sample  the points at which a material is sampled, and what it gives there
+    wall             plaster, paint, wallpaper, fresco, canvas and paper
+    wood             boards, parquet, panels, paint and lacquer over wood
+    stone            stone, brick, clay, mosaic, concrete
+    cloth            cloth, carpet, leather, rush and cane
+    gears            gear wheels, and the wallpaper of them
+    fittings         metal, glass, mirror, glaze, leaves, soil, wax, light sources
+"""
 
 from wm.offline.style.finish import Finish
 from wm.offline.world.materials import cloth, fittings, gears, stone, wall, wood
-from wm.offline.world.materials.surface import Material, Points, Surface, flat_points
+from wm.offline.world.materials.material_sample import Material, MaterialSample, Points, flat_points
 
 _TABLE: dict[str, Material] = {
     "plaster": wall.plaster,
@@ -47,7 +56,7 @@ _TABLE: dict[str, Material] = {
 }
 
 
-def evaluate(points: Points, finish: Finish, *, seed: int) -> Surface:
+def evaluate(points: Points, finish: Finish, *, seed: int) -> MaterialSample:
     """The surface that a finish shows at the points.
 
     Raises:
@@ -58,4 +67,4 @@ def evaluate(points: Points, finish: Finish, *, seed: int) -> Surface:
     return _TABLE[finish.material](points, finish, seed)
 
 
-__all__ = ["Material", "Points", "Surface", "evaluate", "flat_points"]
+__all__ = ["Material", "MaterialSample", "Points", "evaluate", "flat_points"]

@@ -4,7 +4,7 @@ import numpy as np
 from jaxtyping import Float
 
 from wm.offline.style.finish import Finish
-from wm.offline.world.materials.surface import F32, Points, Surface, ink, mix, stains, vary
+from wm.offline.world.materials.material_sample import F32, MaterialSample, Points, ink, mix, stains, vary
 from wm.offline.world.noise import Scalar, cells, edge, fbm
 
 TEETH = 16
@@ -39,7 +39,7 @@ def wheel(
     return edge(np.maximum(np.maximum(rim, hub), spoke), soft)
 
 
-def wallpaper_gears(p: Points, finish: Finish, seed: int) -> Surface:
+def wallpaper_gears(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Gear wheels in mesh on a square lattice, pinions in the gaps between them."""
     pitch = max(finish.scale, 0.08)
     radius = pitch / (2 - TOOTH)  # a tooth reaches the neighbour's root
@@ -59,4 +59,6 @@ def wallpaper_gears(p: Points, finish: Finish, seed: int) -> Surface:
     thread = fbm((p.u * F32(4), p.v), wavelength=0.03, octaves=1, footprint=p.footprint, seed=seed)
     color = mix(ink(finish, 0), ink(finish, 1, shade=1.25), F32(0.8 * finish.contrast) * figure)
     color = vary(color, 0.02 * thread + 0.12 * stains(p, finish, seed=seed + 6, size=1.0))
-    return Surface(albedo=color, roughness=(F32(finish.roughness) - F32(0.2) * figure).astype(F32), height=figure * F32(1e-3))
+    return MaterialSample(
+        albedo=color, roughness=(F32(finish.roughness) - F32(0.2) * figure).astype(F32), height=figure * F32(1e-3)
+    )

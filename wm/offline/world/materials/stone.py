@@ -5,10 +5,10 @@ import dataclasses
 import numpy as np
 
 from wm.offline.style.finish import Finish
-from wm.offline.world.materials.surface import (
+from wm.offline.world.materials.material_sample import (
     F32,
+    MaterialSample,
     Points,
-    Surface,
     ink,
     joints,
     mix,
@@ -20,13 +20,13 @@ from wm.offline.world.materials.surface import (
 from wm.offline.world.noise import cells, edge, fbm, random_cells, visible
 
 
-def marble(p: Points, finish: Finish, seed: int) -> Surface:
+def marble(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Polished marble: clouds of the base crossed by bent veins of two sizes."""
     color = _marble_color(p, finish, seed, ink(finish, 0), ink(finish, 1, shade=0.5), ink(finish, 2, shade=0.75))
-    return Surface(albedo=color, roughness=finish.roughness)
+    return MaterialSample(albedo=color, roughness=finish.roughness)
 
 
-def stone_tiles(p: Points, finish: Finish, seed: int) -> Surface:
+def stone_tiles(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Square cut stone with fine joints; every tile is cut from another place of the block."""
     side = finish.scale
     column, row, du, dv = tile_grid(p, side, side)
@@ -47,7 +47,7 @@ def stone_tiles(p: Points, finish: Finish, seed: int) -> Surface:
     return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.008)
 
 
-def checker_tiles(p: Points, finish: Finish, seed: int) -> Surface:
+def checker_tiles(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Two tones of marble in squares."""
     side = finish.scale
     column, row, du, dv = tile_grid(p, side, side)
@@ -60,7 +60,7 @@ def checker_tiles(p: Points, finish: Finish, seed: int) -> Surface:
     return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.005, joint_color=ink(finish, 2, shade=0.5))
 
 
-def stone_blocks(p: Points, finish: Finish, seed: int) -> Surface:
+def stone_blocks(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Ashlar: courses half as high as the blocks are long, each shifted by about half a block, with rough dressed faces."""
     length = finish.scale
     height = 0.5 * length
@@ -75,7 +75,7 @@ def stone_blocks(p: Points, finish: Finish, seed: int) -> Surface:
     return _jointed(p, finish, seed, color, du, dv, length, height, joint=0.016, relief=0.006, rough=rough * F32(2e-3))
 
 
-def brick(p: Points, finish: Finish, seed: int) -> Surface:
+def brick(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Running bond: three courses to a brick's length, some bricks burnt."""
     length = finish.scale
     height = length / 3
@@ -88,7 +88,7 @@ def brick(p: Points, finish: Finish, seed: int) -> Surface:
     return _jointed(p, finish, seed, color, du, dv, length, height, joint=0.013, relief=0.005, rough=rough * F32(1e-3))
 
 
-def terracotta(p: Points, finish: Finish, seed: int) -> Surface:
+def terracotta(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Square clay tiles, uneven in colour from tile to tile and within each."""
     side = finish.scale
     column, row, du, dv = tile_grid(p, side, side)
@@ -99,7 +99,7 @@ def terracotta(p: Points, finish: Finish, seed: int) -> Surface:
     return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.010)
 
 
-def mosaic(p: Points, finish: Finish, seed: int) -> Surface:
+def mosaic(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Tesserae laid as interlaced circles and lozenges a little over half a metre across, with bands of the border colour."""
     side = max(finish.scale, 0.02)
     column, row, du, dv = tile_grid(p, side, side)
@@ -119,7 +119,7 @@ def mosaic(p: Points, finish: Finish, seed: int) -> Surface:
     )
 
 
-def sectile(p: Points, finish: Finish, seed: int) -> Surface:
+def sectile(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Marble inlay: squares framed in the base, in them by turns a disc and a lozenge of the second and third marble."""
     side = finish.scale
     column, row, du, dv = tile_grid(p, side, side)
@@ -142,7 +142,7 @@ def sectile(p: Points, finish: Finish, seed: int) -> Surface:
     return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.004, joint_color=first * F32(0.5), relief=0.001)
 
 
-def water_tiles(p: Points, finish: Finish, seed: int) -> Surface:
+def water_tiles(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Glazed tiles under a net of caustic light."""
     side = finish.scale
     column, row, du, dv = tile_grid(p, side, side)
@@ -154,7 +154,7 @@ def water_tiles(p: Points, finish: Finish, seed: int) -> Surface:
     return _jointed(p, finish, seed, color, du, dv, side, side, joint=0.006)
 
 
-def concrete(p: Points, finish: Finish, seed: int) -> Surface:
+def concrete(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Board-marked concrete poured in lifts, with tie holes and slow stains."""
     lift = max(finish.scale, 0.3)
     row, dv = cells(p.v, lift)
@@ -170,7 +170,7 @@ def concrete(p: Points, finish: Finish, seed: int) -> Surface:
     hole = edge(radius - np.hypot(np.abs(du) - F32(0.5 * lift), dv), p.footprint) * np.minimum(2 * radius / p.footprint, 1) ** 2
     seam = np.maximum(joints(dv, lift, 0.008, p.footprint), joints(du, 2 * lift, 0.008, p.footprint))
     color = color * (F32(1) - F32(0.45) * np.maximum(hole, F32(0.6) * seam))
-    return Surface(albedo=color.astype(F32), roughness=finish.roughness, height=F32(-2e-3) * seam)
+    return MaterialSample(albedo=color.astype(F32), roughness=finish.roughness, height=F32(-2e-3) * seam)
 
 
 def _marble_color(p: Points, finish: Finish, seed: int, base: np.ndarray, vein: np.ndarray, second: np.ndarray) -> np.ndarray:
@@ -192,10 +192,10 @@ def _marble_color(p: Points, finish: Finish, seed: int, base: np.ndarray, vein: 
 def _jointed(
     p: Points, finish: Finish, seed: int, color: np.ndarray, du: np.ndarray, dv: np.ndarray, width: float, height: float,
     *, joint: float, joint_color: np.ndarray | None = None, relief: float = 0.002, rough: np.ndarray | float = 0.0,
-) -> Surface:  # fmt: skip
+) -> MaterialSample:  # fmt: skip
     """A laid pattern's pieces with their joints drawn in and sunk by `relief`."""
     cover = np.maximum(joints(du, width, joint, p.footprint), joints(dv, height, joint, p.footprint))
     color = vary(color, 0.18 * stains(p, finish, seed=seed + 8))
     color = mix(color, ink(finish, 1, shade=0.6) if joint_color is None else joint_color, F32(0.85) * cover)
     roughness = np.clip(F32(finish.roughness) + F32(0.4) * cover, 0, 1).astype(F32)
-    return Surface(albedo=color, roughness=roughness, height=(rough - F32(relief) * cover).astype(F32))
+    return MaterialSample(albedo=color, roughness=roughness, height=(rough - F32(relief) * cover).astype(F32))

@@ -5,11 +5,11 @@ import dataclasses
 import numpy as np
 
 from wm.offline.style.finish import Finish
-from wm.offline.world.materials.surface import F32, Points, Surface, ink, mix, stains, vary
+from wm.offline.world.materials.material_sample import F32, MaterialSample, Points, ink, mix, stains, vary
 from wm.offline.world.noise import cells, edge, fbm, line, visible
 
 
-def plaster(p: Points, finish: Finish, seed: int) -> Surface:
+def plaster(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Trowelled lime plaster: soft blotches, long trowel strokes, a little relief."""
     size = max(finish.scale, 0.1)
     blotch = fbm((p.u, p.v), wavelength=size, octaves=4, footprint=p.footprint, seed=seed, gain=0.55)
@@ -17,20 +17,20 @@ def plaster(p: Points, finish: Finish, seed: int) -> Surface:
     weight = np.clip(F32(0.35) + F32(0.5) * blotch, 0, 1) * F32(finish.contrast)
     color = vary(mix(ink(finish, 0), ink(finish, 1, shade=0.86), weight), 0.035 * finish.contrast * stroke)
     color = vary(color, 0.12 * stains(p, finish, seed=seed + 6, size=1.2))
-    return Surface(albedo=color, roughness=finish.roughness, height=stroke * F32(1.2e-3) + blotch * F32(1e-3))
+    return MaterialSample(albedo=color, roughness=finish.roughness, height=stroke * F32(1.2e-3) + blotch * F32(1e-3))
 
 
-def paint(p: Points, finish: Finish, seed: int) -> Surface:
+def paint(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Flat paint with the roller's faint texture."""
     roller = fbm((p.u, p.v), wavelength=0.06, octaves=2, footprint=p.footprint, seed=seed)
     slow = fbm((p.u, p.v), wavelength=0.9, octaves=2, footprint=p.footprint, seed=seed + 3)
     color = vary(
         ink(finish, 0), finish.contrast * (0.012 * roller + 0.025 * slow) + 0.08 * stains(p, finish, seed=seed + 6, size=1.2)
     )
-    return Surface(albedo=color, roughness=finish.roughness, height=roller * F32(3e-4))
+    return MaterialSample(albedo=color, roughness=finish.roughness, height=roller * F32(3e-4))
 
 
-def wallpaper_damask(p: Points, finish: Finish, seed: int) -> Surface:
+def wallpaper_damask(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """A half-drop repeat of an ogee frame round a symmetric flower."""
     height = max(finish.scale, 0.1)
     width = 0.6 * height
@@ -43,24 +43,24 @@ def wallpaper_damask(p: Points, finish: Finish, seed: int) -> Surface:
     color = mix(ink(finish, 0), ink(finish, 1, shade=1.25), F32(0.8 * finish.contrast) * figure)
     color = vary(color, 0.02 * thread + 0.12 * stains(p, finish, seed=seed + 6, size=1.0))
     roughness = (F32(finish.roughness) - F32(0.15) * figure).astype(F32)
-    return Surface(albedo=color, roughness=roughness, height=figure * F32(4e-4))
+    return MaterialSample(albedo=color, roughness=roughness, height=figure * F32(4e-4))
 
 
-def wallpaper_stripe(p: Points, finish: Finish, seed: int) -> Surface:
+def wallpaper_stripe(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Broad stripes with a pin line at each side."""
     width = max(finish.scale, 0.03)
     stripe = line(p.u, period=2 * width, width=width, footprint=p.footprint)
     pin = line(p.u + F32(0.5 * width + 0.18 * width), period=2 * width, width=0.1 * width, footprint=p.footprint)
     pin = np.maximum(pin, line(p.u - F32(0.5 * width + 0.18 * width), period=2 * width, width=0.1 * width, footprint=p.footprint))
     color = mix(ink(finish, 0), ink(finish, 1, shade=0.8), F32(finish.contrast) * np.maximum(stripe, F32(0.7) * pin))
-    return Surface(albedo=vary(color, 0.1 * stains(p, finish, seed=seed + 6, size=1.0)), roughness=finish.roughness)
+    return MaterialSample(albedo=vary(color, 0.1 * stains(p, finish, seed=seed + 6, size=1.0)), roughness=finish.roughness)
 
 
 FRESCO_BAND = 0.24
 """Metres of the upright bands that part the fields of a fresco."""
 
 
-def fresco(p: Points, finish: Finish, seed: int) -> Surface:
+def fresco(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Painted plaster after Pompeii: fields of two colours by turns, a fine line and a medallion in each, bands between."""
     pitch = max(finish.scale, 0.5)
     column, du = cells(p.u, pitch)
@@ -82,10 +82,10 @@ def fresco(p: Points, finish: Finish, seed: int) -> Surface:
     blotch = fbm((p.u, p.v), wavelength=0.7, octaves=4, footprint=p.footprint, seed=seed, gain=0.55)
     grain = fbm((p.u, p.v), wavelength=0.05, octaves=2, footprint=p.footprint, seed=seed + 3)
     color = vary(color, finish.contrast * (0.12 * blotch + 0.04 * grain) + 0.12 * stains(p, finish, seed=seed + 6, size=1.2))
-    return Surface(albedo=color, roughness=finish.roughness, height=blotch * F32(8e-4))
+    return MaterialSample(albedo=color, roughness=finish.roughness, height=blotch * F32(8e-4))
 
 
-def painting(p: Points, finish: Finish, seed: int) -> Surface:
+def painting(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """A painted canvas: a pale sky over hills, and shapes in the accent colour, in loose strokes."""
     size = max(finish.scale, 0.1)
     stroke = fbm((p.u, p.v * F32(1.6)), wavelength=0.07, octaves=2, footprint=p.footprint, seed=seed + 2)
@@ -94,18 +94,20 @@ def painting(p: Points, finish: Finish, seed: int) -> Surface:
     shapes = fbm((p.u, p.v), wavelength=size, octaves=2, footprint=p.footprint, seed=seed + 5)
     color = mix(ink(finish, 0), ink(finish, 1, shade=0.5), F32(finish.contrast) * ground)
     color = mix(color, ink(finish, 2, shade=0.3), np.clip((shapes - F32(0.25)) * F32(5), 0, 1) * F32(0.75 * finish.contrast))
-    return Surface(albedo=vary(color, 0.14 * stroke), roughness=finish.roughness)
+    return MaterialSample(albedo=vary(color, 0.14 * stroke), roughness=finish.roughness)
 
 
-def paper(p: Points, finish: Finish, seed: int) -> Surface:
+def paper(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Paper and card; print shows as faint lines where pixels are fine enough."""
     print_ = line(p.v, period=0.012, width=0.005, footprint=p.footprint) * F32(0.35 * finish.contrast)
     slow = fbm((p.x, p.y, p.z), wavelength=0.1, octaves=2, footprint=p.footprint, seed=seed)
-    return Surface(albedo=vary(mix(ink(finish, 0), ink(finish, 1, shade=0.5), print_), 0.05 * slow), roughness=finish.roughness)
+    return MaterialSample(
+        albedo=vary(mix(ink(finish, 0), ink(finish, 1, shade=0.5), print_), 0.05 * slow), roughness=finish.roughness
+    )
 
 
 def trim_profile(finish: Finish) -> Finish:
-    """The same finish, quieter: what mouldings and skirtings are made of, so that their relief reads."""
+    """The same finish with less contrast, for mouldings and skirtings, so that their relief shows."""
     return dataclasses.replace(finish, contrast=0.5 * finish.contrast)
 
 

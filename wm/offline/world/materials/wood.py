@@ -5,14 +5,25 @@ import dataclasses
 import numpy as np
 
 from wm.offline.style.finish import Finish
-from wm.offline.world.materials.surface import F32, Points, Surface, border, ink, joints, mix, piece_tone, stains, vary
+from wm.offline.world.materials.material_sample import (
+    F32,
+    MaterialSample,
+    Points,
+    border,
+    ink,
+    joints,
+    mix,
+    piece_tone,
+    stains,
+    vary,
+)
 from wm.offline.world.noise import cells, fbm, random_cells, visible
 
 NARROW = 0.3
 """Metres: panels narrower than this are boards, for a frame would leave nothing of them."""
 
 
-def wood(p: Points, finish: Finish, seed: int) -> Surface:
+def wood(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Solid wood: growth rings about an axis near the surface, stretched eightfold along the grain."""
     base, grain = ink(finish, 0), ink(finish, 1, shade=0.55)
     figure = _grain(p, max(finish.scale, 0.012), seed)
@@ -21,10 +32,10 @@ def wood(p: Points, finish: Finish, seed: int) -> Surface:
         mix(base, grain, np.clip(0.28 + 0.42 * figure, 0, 1) * F32(finish.contrast)),
         0.14 * tint + 0.15 * stains(p, finish, seed=seed + 9),
     )
-    return Surface(albedo=color, roughness=finish.roughness, height=figure * F32(2e-4))
+    return MaterialSample(albedo=color, roughness=finish.roughness, height=figure * F32(2e-4))
 
 
-def wood_planks(p: Points, finish: Finish, seed: int) -> Surface:
+def wood_planks(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Long boards along u, ends staggered at random, each with its own tone, figure and a fine joint."""
     width = finish.scale
     length = 12.0 * width
@@ -34,7 +45,7 @@ def wood_planks(p: Points, finish: Finish, seed: int) -> Surface:
     return _laid(p, finish, seed, column, row, du, dv, length, width, along=p.u, across=p.v)
 
 
-def herringbone(p: Points, finish: Finish, seed: int) -> Surface:
+def herringbone(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Herringbone parquet at 45 degrees to the walls: blocks five times as long as wide."""
     n, width = 5, finish.scale / 5
     u, v = (p.u + p.v) * F32(np.sqrt(0.5)), (p.v - p.u) * F32(np.sqrt(0.5))
@@ -51,7 +62,7 @@ def herringbone(p: Points, finish: Finish, seed: int) -> Surface:
                  along=np.where(lying, u, v), across=np.where(lying, v, u), tone=tone_shift)  # fmt: skip
 
 
-def parquet(p: Points, finish: Finish, seed: int) -> Surface:
+def parquet(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Basket weave: squares of four strips, turned by a quarter from square to square."""
     side, strips = finish.scale, 4
     i, du = cells(p.u, side)
@@ -64,7 +75,7 @@ def parquet(p: Points, finish: Finish, seed: int) -> Surface:
                  along=np.where(lying, p.u, p.v), across=np.where(lying, p.v, p.u), tone=tone_shift)  # fmt: skip
 
 
-def panelling(p: Points, finish: Finish, seed: int) -> Surface:
+def panelling(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Stiles and rails with recessed fielded panels, a third taller than wide; the mouldings are relief, lit by the room.
 
     Too narrow for a frame, the panels are upright tongue-and-groove boards.
@@ -79,7 +90,7 @@ def panelling(p: Points, finish: Finish, seed: int) -> Surface:
     return _panel(p, finish, seed, inset, column, row)
 
 
-def _matchboard(p: Points, finish: Finish, seed: int) -> Surface:
+def _matchboard(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Upright boards of the finish's width, a V groove between them."""
     column, du = cells(p.u, finish.scale)
     upright = dataclasses.replace(p, x=p.v, y=p.u + random_cells(column, column, seed=seed) * F32(2))
@@ -87,15 +98,15 @@ def _matchboard(p: Points, finish: Finish, seed: int) -> Surface:
     tone = piece_tone(column, np.zeros_like(column), seed=seed + 2, amount=0.035) + F32(0.03 * finish.contrast) * figure
     groove = joints(du, finish.scale, 0.014, p.footprint)
     color = mix(vary(ink(finish, 0), tone), ink(finish, 1, shade=0.6), F32(0.7) * groove)
-    return Surface(albedo=color, roughness=finish.roughness, height=F32(-0.006) * groove)
+    return MaterialSample(albedo=color, roughness=finish.roughness, height=F32(-0.006) * groove)
 
 
-def framed_panel(p: Points, finish: Finish, seed: int, inset: np.ndarray, column: np.ndarray) -> Surface:
+def framed_panel(p: Points, finish: Finish, seed: int, inset: np.ndarray, column: np.ndarray) -> MaterialSample:
     """Panelling whose frame is given: `inset` is metres inside the frame's inner edge, negative on the frame."""
     return _panel(p, finish, seed, inset.astype(F32), column, np.zeros_like(column))
 
 
-def painted_wood(p: Points, finish: Finish, seed: int) -> Surface:
+def painted_wood(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """Paint over wood: faint brush marks along the grain, worn to the wood in places."""
     paint, below = ink(finish, 0), ink(finish, 1, shade=0.5)
     brush = fbm((p.x * F32(0.08), p.y, p.z), wavelength=0.03, octaves=2, footprint=p.footprint, seed=seed)
@@ -103,13 +114,13 @@ def painted_wood(p: Points, finish: Finish, seed: int) -> Surface:
     worn = fbm((p.x * F32(0.4) + bend, p.y + bend, p.z), wavelength=0.25, octaves=4, footprint=p.footprint, seed=seed + 7)
     share = np.clip((worn - F32(0.95 - 0.6 * finish.wear)) * F32(3), 0, 1) * F32(finish.wear)
     color = mix(vary(paint, 0.035 * finish.contrast * brush), below, share)
-    return Surface(albedo=color, roughness=finish.roughness, height=brush * F32(1e-4))
+    return MaterialSample(albedo=color, roughness=finish.roughness, height=brush * F32(1e-4))
 
 
-def lacquer(p: Points, finish: Finish, seed: int) -> Surface:
+def lacquer(p: Points, finish: Finish, seed: int) -> MaterialSample:
     """A deep glossy coat: even colour, slow unevenness."""
     slow = fbm((p.x, p.y, p.z), wavelength=0.5, octaves=2, footprint=p.footprint, seed=seed)
-    return Surface(albedo=vary(ink(finish, 0), 0.06 * finish.contrast * slow), roughness=min(finish.roughness, 0.25))
+    return MaterialSample(albedo=vary(ink(finish, 0), 0.06 * finish.contrast * slow), roughness=min(finish.roughness, 0.25))
 
 
 def _grain(p: Points, spacing: float, seed: int) -> np.ndarray:
@@ -127,7 +138,7 @@ def _grain(p: Points, spacing: float, seed: int) -> np.ndarray:
 def _laid(
     p: Points, finish: Finish, seed: int, column: np.ndarray, row: np.ndarray, du: np.ndarray, dv: np.ndarray,
     length: float, width: float, *, along: np.ndarray, across: np.ndarray, tone: np.ndarray | float = 0.0,
-) -> Surface:  # fmt: skip
+) -> MaterialSample:  # fmt: skip
     """Pieces of wood laid in any pattern, given each point's piece and its place in it."""
     body = random_cells(column, row, seed=seed + 1)
     piece = dataclasses.replace(p, x=along.astype(F32), y=(across + body * F32(3.1)).astype(F32), z=(body * F32(0.9)).astype(F32))
@@ -141,10 +152,10 @@ def _laid(
     gap = 0.004 + 0.004 * finish.wear
     joint = np.maximum(joints(dv, width, gap, p.footprint), joints(du, length, gap, p.footprint))
     roughness = np.clip(F32(finish.roughness) + F32(0.08) * figure + F32(0.3) * joint, 0.05, 1).astype(F32)
-    return Surface(albedo=mix(color, dark, F32(0.8) * joint), roughness=roughness, height=F32(-1.5e-3) * joint)
+    return MaterialSample(albedo=mix(color, dark, F32(0.8) * joint), roughness=roughness, height=F32(-1.5e-3) * joint)
 
 
-def _panel(p: Points, finish: Finish, seed: int, inset: np.ndarray, column: np.ndarray, row: np.ndarray) -> Surface:
+def _panel(p: Points, finish: Finish, seed: int, inset: np.ndarray, column: np.ndarray, row: np.ndarray) -> MaterialSample:
     base, groove = ink(finish, 0), ink(finish, 1, shade=0.4)
     turned = dataclasses.replace(p, x=p.v, y=p.u + random_cells(column, row, seed=seed) * F32(2), z=p.z)  # grain runs upwards
     figure = _grain(turned, 0.02, seed + 3)
@@ -155,6 +166,6 @@ def _panel(p: Points, finish: Finish, seed: int, inset: np.ndarray, column: np.n
     slope_in = np.clip(inset / bead, 0, 1)
     raised = np.clip((inset - field + F32(0.03)) / F32(0.03), 0, 1)
     height = F32(-0.012) * slope_in + F32(0.009) * raised
-    return Surface(
+    return MaterialSample(
         albedo=mix(color, groove, np.clip(F32(0.55) * shadow, 0, 1)), roughness=finish.roughness, height=height.astype(F32)
     )

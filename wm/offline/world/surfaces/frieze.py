@@ -5,10 +5,10 @@ import dataclasses
 import numpy as np
 
 from wm.offline.style.finish import Rgb
-from wm.offline.style.sheet import mix
+from wm.offline.style.style_sheet import mix_rgb
 from wm.offline.world.materials.gears import TEETH, TOOTH, wheel
 from wm.offline.world.noise import cells, edge
-from wm.offline.world.surfaces.sheet import F32, Chart, Interior, Sheet, cropped, lay, over, pasted, shaded
+from wm.offline.world.surfaces.texel_sheet import F32, Chart, Interior, TexelSheet, cropped, lay, over, pasted, shaded
 
 FRIEZES: dict[str, tuple[str, float]] = {"clockwork": ("gears", 0.24), "roman": ("meander", 0.2)}
 """Ornament and height (metres) of a family's frieze."""
@@ -18,7 +18,7 @@ MEANDER = ("#######", "#.....#", "#.###.#", "#.#...#", "#.#####", "#......", "##
 """One repeat of a Greek key, seen from above: the lines are #; repeats share their left edge with the one before."""
 
 
-def frieze(chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: Interior, *, top: float) -> Sheet:
+def frieze(chart: Chart, sheet: TexelSheet, s: np.ndarray, z: np.ndarray, interior: Interior, *, top: float) -> TexelSheet:
     """The wall with its family's frieze, whose upper edge lies at the height `top`; bathrooms and low rooms have none."""
     name, tall = FRIEZES.get(interior.style.family, ("", 0.0))
     if not name or interior.kind == "bathroom" or top < 2.2:
@@ -30,8 +30,8 @@ def frieze(chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: I
 
 
 def _band(
-    chart: Chart, sheet: Sheet, s: np.ndarray, z: np.ndarray, interior: Interior, name: str, *, top: float, tall: float
-) -> Sheet:
+    chart: Chart, sheet: TexelSheet, s: np.ndarray, z: np.ndarray, interior: Interior, name: str, *, top: float, tall: float
+) -> TexelSheet:
     """The strip of wall about the frieze, with it."""
     middle = F32(top - tall / 2)
     inside = F32(tall / 2) - np.abs(z - middle)
@@ -56,7 +56,7 @@ def _colors(interior: Interior, darkened: float) -> tuple[Rgb, Rgb]:
     surfaces = interior.surfaces
     base = surfaces.wainscot.colors[0] if surfaces.wainscot is not None else surfaces.wall.colors[0]
     gilt = interior.style.slot("brass").colors[0]
-    return mix(base, (0.05, 0.08, 0.07), darkened), mix(gilt, (1.0, 0.95, 0.8), 0.1)
+    return mix_rgb(base, (0.05, 0.08, 0.07), darkened), mix_rgb(gilt, (1.0, 0.95, 0.8), 0.1)
 
 
 def _gears(s: np.ndarray, t: np.ndarray, tall: float, texel: float) -> np.ndarray:
@@ -75,7 +75,7 @@ def _meander(s: np.ndarray, t: np.ndarray, tall: float, texel: float) -> np.ndar
     key = np.array([[stroke == "#" for stroke in row] for row in MEANDER])[::-1, :-1]
     stroke = tall / (len(MEANDER) + 2)
     rows, columns = key.shape
-    shares = np.linspace(-0.375, 0.375, 4) * texel  # four samples a texel along each axis, for even edges
+    shares = np.linspace(-0.375, 0.375, 4) * texel  # four samples per texel along each axis, for even edges
     cover = np.zeros(s.shape, F32)
     for a in shares:
         column = np.floor((s + F32(a)) / F32(stroke)).astype(np.int64) % columns

@@ -7,11 +7,11 @@ import numpy as np
 from wm.offline.style.finish import Finish
 from wm.offline.world.materials.wall import trim_profile
 from wm.offline.world.noise import cells, edge, fbm
-from wm.offline.world.surfaces.sheet import (
+from wm.offline.world.surfaces.texel_sheet import (
     F32,
     Chart,
     Interior,
-    Sheet,
+    TexelSheet,
     grid,
     inside_distance,
     lay,
@@ -45,7 +45,7 @@ DESIGNS: dict[str, dict[str, str]] = {
 }
 
 
-def floor_sheet(chart: Chart, interior: Interior) -> Sheet:
+def floor_sheet(chart: Chart, interior: Interior) -> TexelSheet:
     """A floor: its finish along the room's longer side, and in ornate styles a border that follows the walls."""
     x, y = _world(chart)
     finish = interior.surfaces.floor
@@ -62,7 +62,7 @@ BORDERED = ("herringbone", "parquet", "mosaic", "checker_tiles", "marble", "ston
 """Floors that ornate styles frame with a border."""
 
 
-def ceiling_sheet(chart: Chart, interior: Interior) -> Sheet:
+def ceiling_sheet(chart: Chart, interior: Interior) -> TexelSheet:
     """A ceiling after the family's habit: plain, boards, ribs of several sorts, plasterwork, a painted sky, or glazing."""
     designs = DESIGNS.get(interior.style.family, {"": "plain"})
     design = designs.get(interior.kind, designs[""])
@@ -101,8 +101,8 @@ def _world(chart: Chart) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _floor_border(
-    chart: Chart, sheet: Sheet, finish: Finish, a: np.ndarray, b: np.ndarray, wall: np.ndarray, interior: Interior
-) -> Sheet:
+    chart: Chart, sheet: TexelSheet, finish: Finish, a: np.ndarray, b: np.ndarray, wall: np.ndarray, interior: Interior
+) -> TexelSheet:
     """A plain margin along the walls and an inlaid double line."""
     wooden = finish.material in ("herringbone", "parquet")
     margin = (
@@ -122,7 +122,7 @@ def _floor_border(
     return sheet
 
 
-def _boards(chart: Chart, sheet: Sheet, across: np.ndarray) -> Sheet:
+def _boards(chart: Chart, sheet: TexelSheet, across: np.ndarray) -> TexelSheet:
     """Tongue-and-groove boards: a V groove every 12 cm."""
     _, offset = cells(across, 0.12)
     groove = np.clip(F32(1) - (F32(0.06) - np.abs(offset)) / F32(0.010), 0, 1)
@@ -131,9 +131,9 @@ def _boards(chart: Chart, sheet: Sheet, across: np.ndarray) -> Sheet:
 
 
 def _ribs(
-    chart: Chart, sheet: Sheet, trim: Sheet, x: np.ndarray, y: np.ndarray, low: np.ndarray, high: np.ndarray,
+    chart: Chart, sheet: TexelSheet, trim: TexelSheet, x: np.ndarray, y: np.ndarray, low: np.ndarray, high: np.ndarray,
     wall: np.ndarray, *, across: float, along: float | None, width: float,
-) -> Sheet:  # fmt: skip
+) -> TexelSheet:  # fmt: skip
     """Beams across the longer side, and also along it for coffers: evenly divided, with a rib at the walls."""
     span = high - low
     first = 0 if span[0] >= span[1] else 1
@@ -158,7 +158,7 @@ def _ribs(
     return sheet
 
 
-def _mouldings(chart: Chart, sheet: Sheet, wall: np.ndarray, distances: tuple[float, ...]) -> Sheet:
+def _mouldings(chart: Chart, sheet: TexelSheet, wall: np.ndarray, distances: tuple[float, ...]) -> TexelSheet:
     """Plaster beads that follow the walls."""
     height = sheet.height
     for distance in distances:
@@ -167,7 +167,7 @@ def _mouldings(chart: Chart, sheet: Sheet, wall: np.ndarray, distances: tuple[fl
     return shaded(sheet, 1 - 0.10 * np.sum([np.exp(-(((wall - F32(d + 0.04)) / 0.02) ** 2)) for d in distances], axis=0))
 
 
-def _rosette(chart: Chart, sheet: Sheet, dx: np.ndarray, dy: np.ndarray, *, radius: float) -> Sheet:
+def _rosette(chart: Chart, sheet: TexelSheet, dx: np.ndarray, dy: np.ndarray, *, radius: float) -> TexelSheet:
     """A plaster rose: rings, and petals between them."""
     r, angle = np.hypot(dx, dy) / F32(radius), np.arctan2(dy, dx)
     petals = np.sqrt(np.abs(np.cos(F32(8) * angle))) * np.clip((r - 0.3) * 8, 0, 1) * np.clip((0.8 - r) * 8, 0, 1)
@@ -178,7 +178,9 @@ def _rosette(chart: Chart, sheet: Sheet, dx: np.ndarray, dy: np.ndarray, *, radi
     return shaded(sheet, 1 - 0.13 * (1 - np.clip(petals + inner + rings, 0, 1)) * (r < 0.97))
 
 
-def _sky(chart: Chart, sheet: Sheet, trim: Sheet, x: np.ndarray, y: np.ndarray, wall: np.ndarray, interior: Interior) -> Sheet:
+def _sky(
+    chart: Chart, sheet: TexelSheet, trim: TexelSheet, x: np.ndarray, y: np.ndarray, wall: np.ndarray, interior: Interior
+) -> TexelSheet:
     """A painted sky in a gilt or plaster frame."""
     cloud = fbm((x, y), wavelength=1.6, octaves=4, footprint=chart.texel, seed=interior.seed + 60)
     blue = np.array([0.30, 0.46, 0.66], F32)[:, None, None]

@@ -4,13 +4,13 @@ import numpy as np
 
 from wm.offline.world.materials.wall import trim_profile
 from wm.offline.world.noise import edge
-from wm.offline.world.surfaces.sheet import F32, Chart, Interior, Sheet, grid, lay, over, shaded, with_cavities
+from wm.offline.world.surfaces.texel_sheet import F32, Chart, Interior, TexelSheet, grid, lay, over, shaded, with_cavities
 
 STOP = 0.022
 """Metres that the stop which a door would shut against covers on either side of the middle of a jamb."""
 
 
-def reveal_sheet(chart: Chart, interior: Interior) -> Sheet:
+def reveal_sheet(chart: Chart, interior: Interior) -> TexelSheet:
     """The trim with its grain along the longer side; upright and overhead faces carry a door stop along their middle."""
     s, t = grid(chart)
     lengthwise = chart.shape[1] >= chart.shape[0]

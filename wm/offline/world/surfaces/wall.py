@@ -4,18 +4,18 @@ import dataclasses
 
 import numpy as np
 
+from wm.geometry.plan.site import WallOpening
 from wm.offline.style.finish import Finish
 from wm.offline.world.materials import flat_points
 from wm.offline.world.materials.wall import trim_profile
 from wm.offline.world.materials.wood import NARROW, framed_panel
 from wm.offline.world.noise import cells, edge
 from wm.offline.world.surfaces.frieze import frieze
-from wm.offline.world.surfaces.sheet import (
+from wm.offline.world.surfaces.texel_sheet import (
     F32,
     Chart,
-    Gap,
     Interior,
-    Sheet,
+    TexelSheet,
     as_sheet,
     cropped,
     grid,
@@ -31,8 +31,8 @@ BESIDE = 0.5  # metres beside an opening that its casing and the shadow of that 
 STILE = 0.085  # metres: frame between two panels of a wainscot
 
 
-def wall_sheet(chart: Chart, gaps: tuple[Gap, ...], interior: Interior) -> Sheet:
-    """One wall of a room; `gaps` are its openings in the chart's own metres."""
+def wall_sheet(chart: Chart, openings: tuple[WallOpening, ...], interior: Interior) -> TexelSheet:
+    """One wall of a room; `openings` are its openings in the chart's own metres."""
     s, t = grid(chart)
     z = t + F32(chart.origin[2])
     seed = interior.seed
@@ -43,26 +43,26 @@ def wall_sheet(chart: Chart, gaps: tuple[Gap, ...], interior: Interior) -> Sheet
     trim = lay(chart, trim_profile(surfaces.trim), s, z, seed=seed + 50)
     skirting = 0.10 + 0.09 * ornament
     if surfaces.wainscot is not None and surfaces.wainscot_height > 0:
-        sheet = _wainscot(chart, sheet, trim, s, z, gaps, interior, surfaces.wainscot, skirting)
+        sheet = _wainscot(chart, sheet, trim, s, z, openings, interior, surfaces.wainscot, skirting)
     sheet = _band(sheet, trim, skirting - z, depth=0.018, nosing=0.035, texel=chart.texel)
     sheet = frieze(chart, sheet, s, z, interior, top=interior.height - cornice_depth(ornament) - 0.02)
     sheet = _cornice(chart, sheet, trim, z, interior)
-    for gap in gaps:
-        window = (slice(None), slice(*np.searchsorted(s[0], [gap.left - BESIDE, gap.right + BESIDE])))
-        part = _casing(chart, cropped(sheet, window), cropped(trim, window), s[window], z[window], gap, interior)
+    for opening in openings:
+        window = (slice(None), slice(*np.searchsorted(s[0], [opening.low - BESIDE, opening.high + BESIDE])))
+        part = _casing(chart, cropped(sheet, window), cropped(trim, window), s[window], z[window], opening, interior)
         sheet = pasted(sheet, window, part)
     return with_cavities(sheet, chart.texel)
 
 
-def gap_distance(s: np.ndarray, z: np.ndarray, gap: Gap) -> np.ndarray:
+def opening_distance(s: np.ndarray, z: np.ndarray, opening: WallOpening) -> np.ndarray:
     """Metres outside the opening's rectangle, the floor counting as open below a door; negative inside."""
-    across = np.abs(s - F32((gap.left + gap.right) / 2)) - F32((gap.right - gap.left) / 2)
-    above = z - F32(gap.head)
-    below = F32(gap.sill) - z if gap.sill > 0.05 else np.full_like(z, -np.inf)
+    across = np.abs(s - F32((opening.low + opening.high) / 2)) - F32((opening.high - opening.low) / 2)
+    above = z - F32(opening.head)
+    below = F32(opening.sill) - z if opening.sill > 0.05 else np.full_like(z, -np.inf)
     return np.maximum(across, np.maximum(above, below))
 
 
-def _shiplap(sheet: Sheet, z: np.ndarray) -> Sheet:
+def _shiplap(sheet: TexelSheet, z: np.ndarray) -> TexelSheet:
     """Painted boards laid level, a groove every 18 cm."""
     _, offset = cells(z, 0.18)
     groove = np.clip(F32(1) - (F32(0.09) - np.abs(offset)) / F32(0.012), 0, 1)
@@ -70,14 +70,14 @@ def _shiplap(sheet: Sheet, z: np.ndarray) -> Sheet:
 
 
 def _wainscot(
-    chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarray, gaps: tuple[Gap, ...],
+    chart: Chart, sheet: TexelSheet, trim: TexelSheet, s: np.ndarray, z: np.ndarray, openings: tuple[WallOpening, ...],
     interior: Interior, finish: Finish, skirting: float,
-) -> Sheet:  # fmt: skip
+) -> TexelSheet:  # fmt: skip
     """The lower wall: panels that divide each stretch between doors evenly, closed by a rail."""
     top = min(interior.surfaces.wainscot_height, 0.6 * interior.height)
     if finish.material == "panelling" and finish.scale >= NARROW:
         length = chart.shape[1] * chart.texel
-        column, across, width = _stretches(s, gaps, length, top, finish.scale)
+        column, across, width = _stretches(s, openings, length, top, finish.scale)
         low, high = skirting + STILE, top - STILE - 0.03
         inset = np.minimum(width / 2 - STILE / 2 - np.abs(across), (high - low) / 2 - np.abs(z - (low + high) / 2))
         points = flat_points(s.ravel(), z.ravel(), footprint=chart.texel)
@@ -90,10 +90,10 @@ def _wainscot(
 
 
 def _stretches(
-    s: np.ndarray, gaps: tuple[Gap, ...], length: float, top: float, width: float
+    s: np.ndarray, openings: tuple[WallOpening, ...], length: float, top: float, width: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Panel number, metres from its middle and its width, for panels of about `width` between the openings below `top`."""
-    cuts = sorted((gap.left - CASED, gap.right + CASED) for gap in gaps if gap.sill < top)
+    cuts = sorted((opening.low - CASED, opening.high + CASED) for opening in openings if opening.sill < top)
     edges, start = [], 0.0
     for left, right in [*cuts, (length, length)]:
         if left - start > 0.05:
@@ -116,7 +116,7 @@ def cornice_depth(ornament: float) -> float:
     return 0.05 + 0.15 * ornament
 
 
-def _cornice(chart: Chart, sheet: Sheet, trim: Sheet, z: np.ndarray, interior: Interior) -> Sheet:
+def _cornice(chart: Chart, sheet: TexelSheet, trim: TexelSheet, z: np.ndarray, interior: Interior) -> TexelSheet:
     """A run moulding under the ceiling: cove and bead, deeper in ornate styles; plain styles get a thin line or none."""
     ornament = interior.style.form.ornament
     if ornament < 0.15:
@@ -132,14 +132,16 @@ def _cornice(chart: Chart, sheet: Sheet, trim: Sheet, z: np.ndarray, interior: I
     return shaded(sheet, 1 - 0.22 * np.exp(-np.maximum(below - F32(depth), 0) / 0.07) * (below > depth))
 
 
-def _casing(chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarray, gap: Gap, interior: Interior) -> Sheet:
+def _casing(
+    chart: Chart, sheet: TexelSheet, trim: TexelSheet, s: np.ndarray, z: np.ndarray, opening: WallOpening, interior: Interior
+) -> TexelSheet:
     """An architrave around an opening: a stepped band with a bead at its inner and a back band at its outer edge.
 
     Doors and passages of ornate styles stand under a cap, windows on a sill board.
     """
     ornament = interior.style.form.ornament
     width = 0.10 + 0.04 * ornament
-    distance = gap_distance(s, z, gap)
+    distance = opening_distance(s, z, opening)
     steps = F32(0.014) * edge(F32(width) - distance, 0.012)
     steps += F32(0.012) * edge(distance - F32(0.76 * width), 0.010) + F32(0.007) * edge(F32(0.22 * width) - distance, 0.010)
     sheet = over(sheet, trim, edge(F32(width) - distance, chart.texel), lift=steps)
@@ -148,12 +150,12 @@ def _casing(chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarra
         sheet = shaded(sheet, 1 - 0.30 * np.exp(-(((distance - F32(quirk)) / F32(0.009)) ** 2)) * inside)
     outside = np.maximum(distance - F32(width), 0)
     sheet = shaded(sheet, 1 - 0.30 * np.exp(-outside / 0.035) * (outside > 0))
-    half, middle = (gap.right - gap.left) / 2 + width, (gap.left + gap.right) / 2
-    if gap.kind == "window":  # the sill board stands out below
-        board = np.minimum(F32(0.05) - np.abs(z - F32(gap.sill - 0.05)), F32(half + 0.04) - np.abs(s - F32(middle)))
+    half, middle = (opening.high - opening.low) / 2 + width, (opening.low + opening.high) / 2
+    if opening.kind == "window":  # the sill board stands out below
+        board = np.minimum(F32(0.05) - np.abs(z - F32(opening.sill - 0.05)), F32(half + 0.04) - np.abs(s - F32(middle)))
         return _band(sheet, trim, board, depth=0.03, nosing=0.02, texel=chart.texel)
     tall = 0.05 + 0.05 * ornament
-    low = gap.head + width
+    low = opening.head + width
     if ornament < 0.1 or low + tall > interior.height - cornice_depth(ornament) - 0.02:
         return sheet
     cap = np.minimum(F32(tall / 2) - np.abs(z - F32(low + tall / 2)), F32(half + 0.035) - np.abs(s - F32(middle)))
@@ -161,7 +163,7 @@ def _casing(chart: Chart, sheet: Sheet, trim: Sheet, s: np.ndarray, z: np.ndarra
     return _band(sheet, trim, cap, depth=0.035, nosing=0.03, texel=chart.texel)
 
 
-def _band(sheet: Sheet, trim: Sheet, inside: np.ndarray, *, depth: float, nosing: float, texel: float) -> Sheet:
+def _band(sheet: TexelSheet, trim: TexelSheet, inside: np.ndarray, *, depth: float, nosing: float, texel: float) -> TexelSheet:
     """A moulding where `inside` (metres within its outline) is positive, rounded over `nosing` at its edge."""
     profile = F32(depth) * np.sqrt(np.clip(inside / F32(nosing), 0, 1))
     return over(sheet, trim, edge(inside, texel), lift=profile)

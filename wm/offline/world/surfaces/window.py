@@ -5,7 +5,7 @@ import numpy as np
 from wm.color import to_linear
 from wm.offline.world.materials.wall import trim_profile
 from wm.offline.world.noise import cells, edge, fbm
-from wm.offline.world.surfaces.sheet import F32, Chart, Interior, Sheet, grid, lay, over
+from wm.offline.world.surfaces.texel_sheet import F32, Chart, Interior, TexelSheet, grid, lay, over
 
 BARS: dict[str, tuple[int, int, float]] = {
     # family: panes across per metre of width, up per metre of height, width of a bar
@@ -26,13 +26,13 @@ HORIZON = 1.35
 """Metres above the floor where the painted outdoors has its horizon: about eye level."""
 
 
-def pane_sheet(chart: Chart, interior: Interior) -> Sheet:
+def pane_sheet(chart: Chart, interior: Interior) -> TexelSheet:
     """The pane of one window, its light in `emission`."""
     s, t = grid(chart)
     z = t + F32(chart.origin[2])
     across = s + F32(37.0 * (interior.seed % 5)) + F32(3.1 * float(chart.normal[0]) + 7.7 * float(chart.normal[1]))
     family = interior.style.family
-    glass = Sheet(
+    glass = TexelSheet(
         albedo=np.full((3, *chart.shape), 0.03, F32),
         roughness=np.full(chart.shape, 0.1, F32),
         height=np.zeros(chart.shape, F32),
@@ -86,7 +86,7 @@ def _outdoors(chart: Chart, across: np.ndarray, z: np.ndarray, interior: Interio
     return (view * brightness).astype(F32)
 
 
-def _leaded(chart: Chart, glass: Sheet, s: np.ndarray, t: np.ndarray, width: float, height: float) -> Sheet:
+def _leaded(chart: Chart, glass: TexelSheet, s: np.ndarray, t: np.ndarray, width: float, height: float) -> TexelSheet:
     """Diamond quarries in lead, a coloured border, and a roundel at the head of the window."""
     a, da = cells(s * F32(1.35) + t * F32(0.78), 0.26)
     b, db = cells(s * F32(1.35) - t * F32(0.78), 0.26)
@@ -111,7 +111,7 @@ def _leaded(chart: Chart, glass: Sheet, s: np.ndarray, t: np.ndarray, width: flo
     lead = lead * edge((r - F32(1)) * F32(0.26 * width), chart.texel)
     ring = edge(F32(0.014) - np.abs(r - F32(1)) * F32(0.26 * width), chart.texel)
     lead = np.maximum(np.maximum(lead, ring), edge(F32(0.012) - np.abs(sides - F32(0.15)), chart.texel))
-    return Sheet(
+    return TexelSheet(
         albedo=glass.albedo,
         roughness=glass.roughness,
         height=glass.height,

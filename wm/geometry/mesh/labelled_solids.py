@@ -1,6 +1,7 @@
-"""Solids with a label on every plane: what the structure is carved from, and with.
+"""Solids with a label on every plane: the structure is carved from them and with them.
 
-trimesh's extrusions and booleans have no place for a label that survives a cut; manifold3d, which trimesh calls too, has one.
+They are not the solids of wm.offline.furniture.solids: those are put together without booleans and carry no labels. trimesh's
+extrusions and booleans have no place for a label that survives a cut; manifold3d, which trimesh calls too, has one.
 """
 
 import dataclasses
@@ -13,7 +14,7 @@ from shapely.geometry.polygon import orient
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Solid:
+class LabelledSolid:
     """A closed mesh of few planes. Labels are free integers that survive booleans (`carve`)."""
 
     vertices: np.ndarray  # [v, 3] float64
@@ -27,7 +28,7 @@ class Solid:
         return float(np.sum(a * np.cross(b, c))) / 6
 
 
-def prism(rings: Sequence[np.ndarray], low: float, high: float, *, bottom: int, top: int, side: int) -> Solid:
+def prism(rings: Sequence[np.ndarray], low: float, high: float, *, bottom: int, top: int, side: int) -> LabelledSolid:
     """An upright prism over a polygon with holes.
 
     Args:
@@ -43,10 +44,10 @@ def prism(rings: Sequence[np.ndarray], low: float, high: float, *, bottom: int, 
     walls = [np.stack([here, after, after + n], axis=1), np.stack([here, after + n, here + n], axis=1)]
     vertices = np.concatenate([np.column_stack([flat, np.full(n, z)]) for z in (low, high)])
     planes = np.concatenate([np.full(len(cap), 0), np.full(len(cap), 1), here + 2, here + 2])
-    return Solid(vertices, np.concatenate([cap[:, ::-1], cap + n, *walls]), planes, np.array([bottom, top] + [side] * n))
+    return LabelledSolid(vertices, np.concatenate([cap[:, ::-1], cap + n, *walls]), planes, np.array([bottom, top] + [side] * n))
 
 
-def tunnel(sections: np.ndarray, *, bottom: int, side: int, first: int, last: int) -> Solid:
+def tunnel(sections: np.ndarray, *, bottom: int, side: int, first: int, last: int) -> LabelledSolid:
     """A tube of rectangular sections, closed at both ends.
 
     Args:
@@ -63,7 +64,9 @@ def tunnel(sections: np.ndarray, *, bottom: int, side: int, first: int, last: in
     quads = np.concatenate([[[3, 2, 1, 0]], [4 * (count - 1) + corner], *quads])
     faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     planes = np.tile(np.arange(len(quads)), 2)
-    return Solid(sections.reshape(-1, 3), faces, planes, np.array([first, last] + [bottom, side, side, side] * (count - 1)))
+    return LabelledSolid(
+        sections.reshape(-1, 3), faces, planes, np.array([first, last] + [bottom, side, side, side] * (count - 1))
+    )
 
 
 def polygon_rings(polygon: Polygon) -> tuple[np.ndarray, ...]:
@@ -72,7 +75,7 @@ def polygon_rings(polygon: Polygon) -> tuple[np.ndarray, ...]:
     return tuple(np.asarray(ring.coords)[:-1] for ring in (polygon.exterior, *polygon.interiors))
 
 
-def carve(blocks: Sequence[Solid], cutters: Sequence[Solid]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def carve(blocks: Sequence[LabelledSolid], cutters: Sequence[LabelledSolid]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The union of the blocks less all cutters. Faces of cutters that coincide get the label of either.
 
     Returns:
@@ -81,11 +84,11 @@ def carve(blocks: Sequence[Solid], cutters: Sequence[Solid]) -> tuple[np.ndarray
       labels: [f] the label of the plane on which each triangle lies.
 
     Raises:
-      RuntimeError: the geometry kernel failed; its errors are values, so they are asked for here.
+      RuntimeError: the geometry kernel failed; it raises nothing itself, so its status is asked for here.
     """
     solids = [*blocks, *cutters]
     first = np.cumsum([0] + [len(solid.plane_label) for solid in solids[:-1]])
-    # CSG is lazy: nothing is evaluated before the end (asking for a status on the way costs x100).
+    # CSG is lazy: nothing is evaluated before the end (asking for a status before takes 100 times as long).
     parts = [_manifold(solid, int(start)) for solid, start in zip(solids, first)]
     head = manifold3d.Manifold.batch_boolean(parts[: len(blocks)], manifold3d.OpType.Add)
     result = manifold3d.Manifold.batch_boolean([head, *parts[len(blocks) :]], manifold3d.OpType.Subtract)
@@ -97,7 +100,7 @@ def carve(blocks: Sequence[Solid], cutters: Sequence[Solid]) -> tuple[np.ndarray
     return vertices, np.asarray(mesh.tri_verts).astype(np.int32), labels[np.asarray(mesh.face_id).astype(np.int64)]
 
 
-def _manifold(solid: Solid, first: int) -> manifold3d.Manifold:
+def _manifold(solid: LabelledSolid, first: int) -> manifold3d.Manifold:
     """The kernel's own form; every plane carries an id, counted from `first`."""
     faces, ids = solid.faces.astype(np.uint64), (solid.face_plane + first).astype(np.uint64)
     return manifold3d.Manifold(manifold3d.Mesh64(np.ascontiguousarray(solid.vertices), faces, face_id=ids))

@@ -11,10 +11,9 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from wm.offline.style.finish import Finish, Style, Surfaces
-from wm.offline.world.materials import Surface, evaluate, flat_points
+from wm.offline.world.materials import MaterialSample, evaluate, flat_points
+from wm.offline.world.noise import F32
 from wm.types import SurfaceKind
-
-F32 = np.float32
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -31,17 +30,6 @@ class Chart:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Gap:
-    """An opening as a wall sees it: a rectangle in metres along the chart's u and above the floor."""
-
-    kind: str  # door | passage | window
-    left: float
-    right: float
-    sill: float
-    head: float
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
 class Interior:
     """What dressing needs to know of a room."""
 
@@ -55,7 +43,7 @@ class Interior:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Sheet:
+class TexelSheet:
     """A dressed surface, before light."""
 
     albedo: np.ndarray  # [3, h, w] float32 linear
@@ -73,15 +61,15 @@ def grid(chart: Chart) -> tuple[np.ndarray, np.ndarray]:
     return np.broadcast_to(s[None, :], chart.shape), np.broadcast_to(t[:, None], chart.shape)
 
 
-def lay(chart: Chart, finish: Finish, s: np.ndarray, t: np.ndarray, *, seed: int) -> Sheet:
+def lay(chart: Chart, finish: Finish, s: np.ndarray, t: np.ndarray, *, seed: int) -> TexelSheet:
     """A finish over the whole sheet, its pattern placed by s and t ([h, w] metres)."""
     points = flat_points(s.ravel(), t.ravel(), footprint=chart.texel, depth=0.31 * (seed % 7))
     return as_sheet(evaluate(points, finish, seed=seed), chart.shape)
 
 
-def as_sheet(surface: Surface, shape: tuple[int, int]) -> Sheet:
-    """A material's answer as images."""
-    return Sheet(
+def as_sheet(surface: MaterialSample, shape: tuple[int, int]) -> TexelSheet:
+    """A sheet of a material sampled at the centre of every texel, row by row."""
+    return TexelSheet(
         albedo=surface.albedo.reshape(3, *shape),
         roughness=_image(surface.roughness, shape),
         height=_image(surface.height, shape),
@@ -89,10 +77,10 @@ def as_sheet(surface: Surface, shape: tuple[int, int]) -> Sheet:
     )
 
 
-def over(below: Sheet, layer: Sheet, cover: np.ndarray, *, lift: np.ndarray | float = 0.0) -> Sheet:
+def over(below: TexelSheet, layer: TexelSheet, cover: np.ndarray, *, lift: np.ndarray | float = 0.0) -> TexelSheet:
     """`layer`, raised by `lift` metres, laid over `below` where cover ([h, w] in [0, 1]) is 1."""
     cover = cover.astype(F32)
-    return Sheet(
+    return TexelSheet(
         albedo=below.albedo + (layer.albedo - below.albedo) * cover,
         roughness=below.roughness + (layer.roughness - below.roughness) * cover,
         height=(below.height + (layer.height + lift - below.height) * cover).astype(F32),
@@ -101,12 +89,12 @@ def over(below: Sheet, layer: Sheet, cover: np.ndarray, *, lift: np.ndarray | fl
     )
 
 
-def shaded(sheet: Sheet, amount: np.ndarray) -> Sheet:
+def shaded(sheet: TexelSheet, amount: np.ndarray) -> TexelSheet:
     """The sheet with its albedo multiplied by `amount` ([h, w]): painted occlusion."""
     return dataclasses.replace(sheet, albedo=(sheet.albedo * np.clip(amount, 0, 1)).astype(F32))
 
 
-def with_cavities(sheet: Sheet, texel: float, *, reach: float = 0.03, strength: float = 22.0) -> Sheet:
+def with_cavities(sheet: TexelSheet, texel: float, *, reach: float = 0.03, strength: float = 22.0) -> TexelSheet:
     """Darker where the relief lies below its surroundings within `reach` metres, a touch lighter where it stands out."""
     if not np.any(sheet.height):
         return sheet
@@ -116,7 +104,7 @@ def with_cavities(sheet: Sheet, texel: float, *, reach: float = 0.03, strength: 
     )
 
 
-def cropped(sheet: Sheet, window: tuple[slice, slice]) -> Sheet:
+def cropped(sheet: TexelSheet, window: tuple[slice, slice]) -> TexelSheet:
     """The part of a sheet in a window of rows and columns, as views."""
     return dataclasses.replace(
         sheet,
@@ -125,7 +113,7 @@ def cropped(sheet: Sheet, window: tuple[slice, slice]) -> Sheet:
     )  # fmt: skip
 
 
-def pasted(sheet: Sheet, window: tuple[slice, slice], part: Sheet) -> Sheet:
+def pasted(sheet: TexelSheet, window: tuple[slice, slice], part: TexelSheet) -> TexelSheet:
     """The sheet with `part`, which gives no light of its own, in a window of rows and columns."""
     albedo, roughness, height = sheet.albedo.copy(), sheet.roughness.copy(), sheet.height.copy()
     albedo[:, *window], roughness[window], height[window] = part.albedo, part.roughness, part.height

@@ -1,4 +1,4 @@
-"""What a material is asked and what it answers, and the few operations that all of them share."""
+"""The points at which a material is sampled, what it gives there, and the few operations that all materials share."""
 
 import dataclasses
 from collections.abc import Callable
@@ -8,9 +8,7 @@ from jaxtyping import Float, Int
 
 from wm.color import to_linear
 from wm.offline.style.finish import Finish
-from wm.offline.world.noise import cells, fbm, random_cells
-
-F32 = np.float32
+from wm.offline.world.noise import F32, cells, fbm, random_cells
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -26,8 +24,8 @@ class Points:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Surface:
-    """What light meets at n points."""
+class MaterialSample:
+    """What light meets of a material at n points."""
 
     albedo: np.ndarray  # [3, n] float32 linear, in [0, 1]
     roughness: np.ndarray | float  # 0 mirror .. 1 matt
@@ -35,8 +33,8 @@ class Surface:
     metallic: float = 0.0  # 1: reflects its albedo and scatters nothing
 
 
-Material = Callable[[Points, Finish, int], Surface]
-"""A material: (points, finish, seed) -> Surface. Pure; equal arguments give equal bytes."""
+Material = Callable[[Points, Finish, int], MaterialSample]
+"""A material: (points, finish, seed) -> MaterialSample. Pure; equal arguments give equal bytes."""
 
 
 def flat_points(

@@ -1,19 +1,19 @@
-"""The work of furnishing one room: what every group needs at hand, and where things lie beside each other."""
+"""One room while it is being furnished: what every group of furniture is placed with, and places relative to a piece."""
 
 import dataclasses
 import math
 
 import numpy as np
 
-from wm.offline.arrangement.clutter import dress
+from wm.offline.arrangement.clutter import add_clutter
 from wm.offline.arrangement.layout import Layout, Placed
 from wm.offline.furniture import KINDS, Piece, make_piece
 from wm.offline.style.finish import Style
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Job:
-    """What every group needs at hand: the room, the style, the dice."""
+class RoomArrangement:
+    """One room being furnished: its layout so far, the style, and the random generator that all choices are drawn from."""
 
     layout: Layout
     style: Style
@@ -25,7 +25,7 @@ class Job:
 
     def dressed(self, placed: Placed | None) -> Placed | None:
         if placed is not None:
-            dress(self.layout, placed, self.style, self.rng, density=self.density)
+            add_clutter(self.layout, placed, self.style, self.rng, density=self.density)
         return placed
 
     def at_wall(
@@ -41,7 +41,7 @@ class Job:
         return self.dressed(self.layout.against_wall(piece, self.rng, front=KINDS[kind].front, where=where, mates=mates))
 
     def chance(self, share: float) -> bool:
-        """A draw that density makes less likely; the dice are thrown either way."""
+        """Whether an event of probability `share` times the density happens; one number is drawn whatever the density."""
         return bool(self.rng.random() < share * self.density)
 
 
@@ -52,10 +52,17 @@ def local(placed: Placed, dx: float, dy: float) -> tuple[float, float]:
 
 
 def beside(
-    job: Job, placed: Placed, piece: Piece, side: float, *, gap: float = 0.06, flush: str = "back", turned: float = 0.0
+    room: RoomArrangement,
+    placed: Placed,
+    piece: Piece,
+    side: float,
+    *,
+    gap: float = 0.06,
+    flush: str = "back",
+    turned: float = 0.0,
 ) -> Placed | None:
     """A piece next to another, on its right (side 1) or left (-1), backs or fronts in line."""
     w, d = float(placed.piece.size[0]), float(placed.piece.size[1])
     dy = (d - float(piece.size[1])) / 2 * (1.0 if flush == "back" else -1.0)
     x, y = local(placed, side * (w / 2 + gap + float(piece.size[0]) / 2), dy)
-    return job.layout.try_at(piece, x, y, placed.yaw + turned)
+    return room.layout.try_at(piece, x, y, placed.yaw + turned)
