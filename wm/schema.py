@@ -213,6 +213,10 @@ BACKEND_KEYS = {
 """The key that selects the backend of each group."""
 
 
+EXECUTORS = ("threads",)
+"""What rooms can be fitted by, side by side."""
+
+
 @dataclass(kw_only=True, unsafe_hash=True)
 class RunConfig:
     """The whole of a run; conf/config.yaml and what the command line says."""
@@ -241,6 +245,6 @@ class RunConfig:
     reuse: bool = field(default=True, metadata=BESIDE)
     # a folder made by another configuration is refused unless this is true
     overwrite: bool = field(default=False, metadata=BESIDE)
-    # processes that fit rooms side by side on a CPU; 0: threads, as fast on two cores; None: one a core
-    workers: int | None = field(default=0, metadata=BESIDE)
+    executor: str = field(default="threads", metadata=BESIDE)  # what rooms are fitted by, one of EXECUTORS
+    workers: int | None = field(default=None, metadata=BESIDE)  # how many rooms are fitted at once; None: one per core
     debug: bool = field(default=False, metadata=BESIDE)  # tracebacks instead of one-line errors

@@ -10,13 +10,14 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from wm.errors import InputError
-from wm.schema import BACKEND_KEYS, COMPOSITORS, PLANNERS, RunConfig
+from wm.schema import BACKEND_KEYS, COMPOSITORS, EXECUTORS, PLANNERS, RunConfig
 
 CHOICES: Mapping[str, tuple[str, ...]] = {
     "condition.objects": ("textured", "boxes", "none"),
     "raster.compositor": COMPOSITORS,
     "raster.planner": PLANNERS,
     "fit.init": ("flat", "isotropic", "random"),
+    "executor": EXECUTORS,
 }
 
 # key: (lowest, highest), both allowed but for BELOW. Counts that index arrays have a ceiling that catches a slip of the keyboard.
@@ -131,8 +132,8 @@ def validate_config(config: RunConfig, *, backends: Mapping[str, tuple[str, ...]
         below = key in BELOW
         if not _within(values[key], low, high) or (below and values[key] == high):
             problems.append(f"{key}={values[key]!r}: must be a number from {low:g} to {'below ' * below}{high:g}")
-    if config.workers is not None and not _within(config.workers, 0, 1000):
-        problems.append(f"workers={config.workers!r}: must be a number from 0 to 1000, or null for one a core")
+    if config.workers is not None and not _within(config.workers, 1, 1000):
+        problems.append(f"workers={config.workers!r}: must be a number from 1 to 1000, or null for one room per core")
     if config.raster.compositor in ("kernels", "interpreted") and config.raster.tile.bit_count() != 1:
         problems.append(f"raster.tile={config.raster.tile!r}: kernels want a power of two")
     problems += _scene_problems(config)

@@ -20,7 +20,7 @@
     exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
     fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
     scene_render.py  SceneRenderer: renders of many rooms
-    room_task.py  what the fit of one of them reads; room_worker.py: room_workers, which do it in processes of their own
+    room_task.py  what the fit of one of them reads
     metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
     ply.py        load_ply, save_ply
 """
@@ -38,7 +38,6 @@ from wm.splat.rasterizer.rendering import render
 from wm.splat.rasterizer.tiles import TilePlan, plan_tiles, plan_views
 from wm.splat.rasterizer.tiles_traced import TracedPlan, plan_tiles_on_device, plan_tiles_traced
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
-from wm.splat.scene.room_worker import RoomWorker, room_workers
 from wm.splat.scene.scene_fit import SceneFit, fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.splat.similarity import ssim, ssim_map
@@ -55,7 +54,6 @@ __all__ = [
     "PlyError",
     "Projected",
     "ReprojectionError",
-    "RoomWorker",
     "SceneFit",
     "SceneRenderer",
     "TilePlan",
@@ -80,7 +78,6 @@ __all__ = [
     "rasterize",
     "render",
     "reprojection_error",
-    "room_workers",
     "save_ply",
     "shared_pixels",
     "ssim",

@@ -29,8 +29,8 @@ START = [initial_gaussians(views, settings=SETTINGS, rng=np.random.default_rng(0
 
 
 def run(start=START, views=VIEWS, devices=1, settings=SETTINGS, **kwargs):
-    where = [jax.devices()[0]] * devices
-    return fit_scene(start, views.__getitem__, settings=settings, raster=RASTER, key=jax.random.key(0), devices=where, **kwargs)
+    where = {"devices": [jax.devices()[0]] * devices, "workers": devices}
+    return fit_scene(start, views.__getitem__, settings=settings, raster=RASTER, key=jax.random.key(0), **where | kwargs)
 
 
 def raw(gaussians):
@@ -44,6 +44,7 @@ def once():
 
 def test_scheduling_changes_no_byte(once):
     assert raw(run(devices=2).gaussians) == raw(once.gaussians)
+    assert raw(run(devices=1, workers=None).gaussians) == raw(once.gaussians)
 
 
 def test_devices_beyond_the_rooms_share_their_batches_and_change_no_byte():

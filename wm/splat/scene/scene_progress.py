@@ -33,8 +33,7 @@ class SceneProgress:
         Raises: Halted after `halt`.
         """
         self._add(1, info)
-        if self._halted:
-            raise Halted
+        self.raise_if_halted()
 
     def skip(self, steps: int) -> None:
         """Steps that need not be taken."""
@@ -43,6 +42,11 @@ class SceneProgress:
     def halt(self) -> None:
         """From now on every room ends at its next step."""
         self._halted = True
+
+    def raise_if_halted(self) -> None:
+        """Raises: Halted after `halt`."""
+        if self._halted:
+            raise Halted
 
     def _add(self, steps: int, info: dict) -> None:
         with self._lock:
