@@ -22,9 +22,9 @@ from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.job import TIMINGS, Job, versions
 from wm.stages.painting import Painted, is_painted, paint
 from wm.stages.reconstruction import HISTORY, reconstruct
-from wm.stages.rehearsal import rehearsed
 from wm.stages.reporting import REPORT, report
 from wm.stages.scene import LAYOUT, Scene, build_scene
+from wm.stages.warm_up import warming_up
 from wm.synth.backends import close_backend, make_backend
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
@@ -60,7 +60,7 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
         job = Job(config=config, folder=store, meter=meter)
         scene = build_scene(job)
         capacity = Capacity()
-        with rehearsed(job, scene, capacity, needed=not is_painted(job, scene)):
+        with warming_up(job, scene, capacity, needed=not is_painted(job, scene)):
             painted, heldout = _painted(job, scene)
         result = reconstruct(job, scene, painted, heldout, capacity)
         metrics = evaluate(job, scene, painted, result, heldout)

@@ -43,7 +43,7 @@ class Reconstruction:
 
 
 def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, capacity: Capacity) -> Reconstruction:
-    """The gaussians of the scene, in `splats.ply`. The capacity is the rehearsal's: the fit runs what was compiled for it."""
+    """The gaussians of the scene, in `splats.ply`. The capacity is that of the warm-up: the fit runs what was compiled for it."""
     with job.stage("reconstruct"):
         config = job.config
         key = job.key("reconstruct", painted.key, config.fit, config.raster)

@@ -33,7 +33,7 @@ from wm.types import Gaussians
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SceneFit:
-    """What the fit of a scene came to."""
+    """The result of the fit of a scene."""
 
     gaussians: tuple[Gaussians, ...]  # by room, NumPy float32 leaves, each in the order it started in
     history: tuple[FitPoint, ...]  # by room, then step

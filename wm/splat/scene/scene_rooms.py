@@ -16,9 +16,9 @@ from wm.splat.scene.room_task import FitContext, RoomOutcome, RoomTask, fit_room
 from wm.splat.scene.scene_progress import Checkpoints, SceneProgress
 from wm.types import Gaussians
 
-RUNG = 8
-"""Padded sizes are the largest room's count over powers of this. One size is usual: compiling a step takes as long as fifty of
-them, and what padding adds to a step is little."""
+BUCKET_RATIO = 8
+"""Padding buckets are the count of the largest room divided by powers of this. Most scenes have one bucket: compiling a step
+takes as long as fifty steps, and padding adds little to a step."""
 
 RoomViews = Callable[[int], Sequence[TrainingView]]
 """The views of a room, by room index."""
@@ -65,7 +65,7 @@ class SceneRooms:
         for future in list(self._submitted):
             future.cancel()
 
-    def _stretch(self, round_: int) -> tuple[int, int]:
+    def _step_range(self, round_: int) -> tuple[int, int]:
         """First step of a round and one past its last."""
         steps, rounds = self.settings.steps, self.settings.rounds
         return steps * round_ // rounds, steps * (round_ + 1) // rounds
@@ -75,17 +75,17 @@ class SceneRooms:
         arrays = self.checkpoints.load(round_, room)
         if arrays is None:
             return None
-        state, (first, last) = from_arrays(arrays), self._stretch(round_)
+        state, (first, last) = from_arrays(arrays), self._step_range(round_)
         self.report.skip((last if self._has_ended(state, round_) else state.step) - first)
         return state
 
     def _has_ended(self, state: RoomState, round_: int) -> bool:
-        """Whether a checkpoint is that of the end of a round, and not of its last step: then the round is still to be judged."""
-        return state.stopped is not None or (state.watch is None and state.step >= self._stretch(round_)[1])
+        """Whether a checkpoint was stored after its round had ended, and not within the round after its last step."""
+        return state.stopped is not None or (state.monitor is None and state.step >= self._step_range(round_)[1])
 
     def _fitted(self, round_: int, room: int, state: RoomState, devices: Sequence[Device], executor: Executor) -> RoomState:
         """The state of a room after a round, which is stored, as is what an exception leaves."""
-        first, last = self._stretch(round_)
+        first, last = self._step_range(round_)
         task = self._task(room, state, last)
         if task is None:
             self.report.skip(last - max(first, state.step))
@@ -123,7 +123,7 @@ class SceneRooms:
         return outcome
 
     def _task(self, room: int, state: RoomState, last: int) -> RoomTask | None:
-        """What the fit of a room reads; None: there is nothing to fit."""
+        """The task of a room; None: there is nothing to fit."""
         views = [] if state.stopped or self._count(room) == 0 else _read(self.views(room))
         if not views:
             return None
@@ -138,26 +138,26 @@ class SceneRooms:
             settings=self.settings,
             raster=self.raster,
             seed=self.seed,
-            rows=self._rung(room),
+            rows=self._bucket(room),
             columns=0 if len(self.states) == 1 else max(self._largest, 1),
             seconds=time.perf_counter() - self._started,
         )
 
     def _neighbours(self, views: Sequence[TrainingView], room: int) -> dict[int, Gaussians]:
         others = sorted({other for view in views for other in view.sees if other != room and self._count(other) > 0})
-        return {other: pad_gaussians(self.states[other].train.gaussians, self._rung(other)) for other in others}
+        return {other: pad_gaussians(self.states[other].train.gaussians, self._bucket(other)) for other in others}
 
     def _count(self, room: int) -> int:
         return len(self.states[room].train.gaussians.opacity_logits)
 
-    def _rung(self, room: int) -> int:
-        """The padded size of a room's gaussians."""
+    def _bucket(self, room: int) -> int:
+        """The padded size of a room's gaussians: the smallest padding bucket that holds them."""
         size = self._largest
-        while -(-size // RUNG) >= self._count(room) and size > 1:
-            size = -(-size // RUNG)
+        while -(-size // BUCKET_RATIO) >= self._count(room) and size > 1:
+            size = -(-size // BUCKET_RATIO)
         return size
 
 
 def _read(views: Sequence[TrainingView]) -> list[TrainingView]:
-    """Views without what only the initial cloud reads."""
+    """Views without the arrays that only the initial cloud reads."""
     return [dataclasses.replace(view, own=None, normal=None, detailed=None) for view in views]

@@ -1,4 +1,4 @@
-"""The rehearsal compiles what the fit runs, and decides nothing else."""
+"""The warm-up compiles what the fit runs, and decides nothing else."""
 
 import jax
 import pytest
@@ -11,8 +11,8 @@ from wm.run import load_config
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.step import view_gradient
 from wm.stages.job import Job
-from wm.stages.rehearsal import contenders, rehearse
 from wm.stages.scene import build_scene
+from wm.stages.warm_up import contenders, warm_up
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,7 @@ def test_it_takes_one_step_and_one_render_and_sets_the_capacity(made):
     job, scene = made
     capacity = Capacity()
     jax.clear_caches()
-    rehearse(job, scene, capacity)
+    warm_up(job, scene, capacity)
     assert view_gradient._cache_size() == 1
     assert capacity.entries is not None and capacity.entries > 0
 

@@ -1,9 +1,10 @@
-"""Rehearsal: what the fit is going to run is compiled while the views are painted.
+"""Warm-up: the functions that the fit is going to run are compiled while the views are painted.
 
-Compiling a step of the fit takes as long as fifty of them, and painting, which is NumPy for the most part, leaves half a core
-idle. So one step is taken ahead, in a thread: that of the room with the most gaussians, since all rooms are padded to it,
-from its true initial cloud (which the scaffold alone decides, but for the colours) toward a black image. Nothing of it is kept
-but the compiled functions and the capacity of plans they are compiled for, so a wrong guess of the room costs time only.
+Compiling a step of the fit takes as long as fifty steps, and painting, which is NumPy for the most part, leaves half a core idle.
+So one step is taken in advance, in a thread: for the room with the most gaussians, since all rooms are padded to its size, from
+its true initial cloud (which depends on the scaffold alone, but for the colours) toward a black image. Only the compiled
+functions and the capacity of plans that they are compiled for are kept, so a wrong guess of the room costs time and changes no
+result.
 """
 
 import dataclasses
@@ -33,20 +34,20 @@ CONTENDERS = 0.8
 
 
 @contextmanager
-def rehearsed(job: Job, scene: Scene, capacity: Capacity, *, needed: bool) -> Iterator[None]:
-    """The rehearsal goes on beside the block if it is needed and there is a core for it."""
+def warming_up(job: Job, scene: Scene, capacity: Capacity, *, needed: bool) -> Iterator[None]:
+    """The warm-up runs in a thread beside the block if it is needed and there is a second core."""
     if not needed or cores() == 1 or not scene.views:
         yield
         return
-    pool = ThreadPoolExecutor(1, thread_name_prefix="wm-rehearsal")
+    pool = ThreadPoolExecutor(1, thread_name_prefix="wm-warm-up")
     try:
-        pool.submit(rehearse, job, scene, capacity).add_done_callback(_tell)
+        pool.submit(warm_up, job, scene, capacity).add_done_callback(_tell)
         yield
     finally:
         pool.shutdown(wait=False)  # a fit of the same shapes waits for the compilation, nobody else needs to
 
 
-def rehearse(job: Job, scene: Scene, capacity: Capacity) -> None:
+def warm_up(job: Job, scene: Scene, capacity: Capacity) -> None:
     """One step of the room with the most gaussians, and one held-out render; raises the capacity to what they need."""
     settings = job.config.fit
     clouds = {room: _cloud(scene, room, job.config) for room in contenders(scene, settings)}
@@ -66,10 +67,10 @@ def rehearse(job: Job, scene: Scene, capacity: Capacity) -> None:
     )
 
 
-def _tell(rehearsal: Future) -> None:
-    error = rehearsal.exception()
+def _tell(warmed: Future) -> None:
+    error = warmed.exception()
     if error is not None:
-        print(f"rehearsal of the fit: {type(error).__name__}: {error}; the fit compiles for itself", file=sys.stderr)
+        print(f"warm-up of the fit: {type(error).__name__}: {error}; the fit compiles for itself", file=sys.stderr)
 
 
 def contenders(scene: Scene, settings: FitSettings) -> list[int]:
