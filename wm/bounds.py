@@ -68,7 +68,7 @@ def number(
     null: str = "",
     **metadata: Any,
 ) -> Any:
-    """A dataclass field that holds a number between bounds; of integers where the default is one.
+    """A dataclass field that holds a number between bounds; of integers where the default is one (where that is None, where `low` is).
 
     Args:
       default: its value where nothing else is said.
@@ -80,7 +80,8 @@ def number(
       null: what None means; where this is empty, None is refused.
       metadata: further entries.
     """
-    bounds = Bounds(low=low, high=high, below=below, whole=isinstance(default, int), null=null)
+    whole = isinstance(low if default is None else default, int)
+    bounds = Bounds(low=low, high=high, below=below, whole=whole, null=null)
     return setting(default, help, bounds=bounds, unit=unit, **metadata)
 
 

@@ -16,15 +16,15 @@ from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.neighbours import Neighbours
 from wm.schema import RunConfig
+from wm.splat.optimization.padding import Capacity
 from wm.stages.evaluation import METRICS, evaluate
-from wm.stages.fitters import fitters
 from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.job import TIMINGS, Job, versions
 from wm.stages.painting import Painted, is_painted, paint
 from wm.stages.reconstruction import HISTORY, reconstruct
-from wm.stages.rehearsal import rehearsed
 from wm.stages.reporting import REPORT, report
 from wm.stages.scene import LAYOUT, Scene, build_scene
+from wm.stages.warm_up import warming_up
 from wm.synth.registry import close_backend, make_backend
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
@@ -59,10 +59,10 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
             meter.outdate()
         job = Job(config=config, folder=store, meter=meter)
         scene = build_scene(job)
-        with fitters(config, scene) as fitting:
-            with rehearsed(job, scene, fitting, needed=not is_painted(job, scene)):
-                painted, heldout = _painted(job, scene)
-            result = reconstruct(job, scene, painted, heldout, fitting)
+        capacity = Capacity()
+        with warming_up(job, scene, capacity, needed=not is_painted(job, scene)):
+            painted, heldout = _painted(job, scene)
+        result = reconstruct(job, scene, painted, heldout, capacity)
         metrics = evaluate(job, scene, painted, result, heldout)
         metrics = report(job, scene, painted, result, metrics)
         print(_summary(folder, job, metrics))

@@ -10,13 +10,11 @@ import contextlib
 import importlib
 import os
 import pickle
-import shutil
 import subprocess
 import sys
 import threading
 import traceback
 import weakref
-from collections.abc import Mapping
 from multiprocessing.connection import Connection, Pipe
 
 from wm.host import prepare_process
@@ -25,30 +23,18 @@ from wm.host import prepare_process
 class WorkerProcess:
     """A running worker, and our ends of its pipes."""
 
-    def __init__(
-        self,
-        module: str,
-        *,
-        lanes: int = 1,
-        core: int | None = None,
-        environment: Mapping[str, str] | None = None,
-        scratch: str | None = None,
-    ) -> None:
+    def __init__(self, module: str, *, lanes: int = 1) -> None:
         """Starts it.
 
         Args:
             module: the name of one that has `serve(pipes)`.
-            lanes: pipes.
-            core: the only one that it may use, where the system can be told so; it is held to it before it imports the module,
-                so that libraries that count cores find one. None: all of ours.
-            environment: variables that it has besides ours.
-            scratch: a folder of ours that it removes if we end before it; None: none.
+            lanes: how many pipes there are.
         """
         pairs = [Pipe() for _ in range(lanes)]
         theirs = [pipe.fileno() for _, pipe in pairs]
         paths = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # this wm, wherever it was imported from
-        command = [sys.executable, "-m", __name__, module, str(core), scratch or "", *map(str, theirs)]
-        variables = os.environ | paths | dict(environment or {})
+        command = [sys.executable, "-m", __name__, module, *map(str, theirs)]
+        variables = os.environ | paths
         self.popen = subprocess.Popen(command, stdin=subprocess.PIPE, pass_fds=theirs, env=variables, start_new_session=True)
         for _, pipe in pairs:
             pipe.close()
@@ -80,23 +66,18 @@ def _end(popen: subprocess.Popen, pipes: list[Connection]) -> None:
         pipe.close()
 
 
-def _end_with_the_caller(scratch: str) -> None:
+def _end_with_the_caller() -> None:
     """Waits for the end of standard input, which nothing is ever written to: whatever is under way then is for nobody."""
     os.read(0, 1)
-    if scratch:
-        shutil.rmtree(scratch, ignore_errors=True)
     os._exit(1)
 
 
-def _main(module: str, core: str, scratch: str, *pipes: str) -> None:
-    if core != "None":
-        with contextlib.suppress(AttributeError, OSError):  # not Linux, or a core that was taken from us meanwhile
-            os.sched_setaffinity(0, {int(core)})
-    watch = threading.Thread(target=_end_with_the_caller, args=(scratch,), daemon=True)
+def _main(module: str, *pipes: str) -> None:
+    watch = threading.Thread(target=_end_with_the_caller, daemon=True)
     watch.start()
     prepare_process()
     importlib.import_module(module).serve([Connection(int(number)) for number in pipes])
-    watch.join()  # the pipes have closed because the caller has ended: it may be clearing up
+    watch.join()  # the pipes have closed because the caller has ended
 
 
 if __name__ == "__main__":

@@ -243,12 +243,8 @@ class RunConfig:
         True, "Take finished stages over from runs of other variants beside this one, where they are the same.", **BESIDE
     )
     overwrite: bool = setting(False, "A folder made by another configuration is refused unless this is true.", **BESIDE)
+    executor: str = choice("threads", ("threads",), "What rooms are fitted by, side by side.", **BESIDE)
     workers: int | None = number(
-        0,
-        0,
-        1000,
-        "Processes that fit rooms side by side on a CPU; 0: threads, as fast on two cores; None: one a core.",
-        null="one a core",
-        **BESIDE,
+        None, 1, 1000, "Rooms fitted at once; None: one room per core.", null="one room per core", **BESIDE
     )
     debug: bool = setting(False, "Tracebacks instead of one-line errors.", **BESIDE)

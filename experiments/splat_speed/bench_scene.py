@@ -1,7 +1,7 @@
 """The bench scene, one whole step on it, and times.
 
 Gaussians on the walls of a 6 x 4 x 2.7 m room and on three balls in it, seen from one end. A step is all that one view costs:
-projection, plan, forward, backward, and the derivative by the 3D parameters.
+projection, plan, forward, backward, and the derivative with respect to the 3D parameters.
 """
 
 import dataclasses
@@ -72,7 +72,7 @@ class Step:
 
     def __call__(self) -> Gaussians:
         projected = self.project()
-        return self.pull(self.both(projected, self.plan(projected)))
+        return self.vjp(self.both(projected, self.plan(projected)))
 
     def project(self) -> Projected:
         return _project(self.gaussians, self.camera, settings=self.settings)
@@ -84,12 +84,12 @@ class Step:
         return _forward(projected, plan, width=self.camera.width, height=self.camera.height, settings=self.settings)
 
     def both(self, projected: Projected, plan: TilePlan) -> Projected:
-        """Forward and backward: the derivative by the ellipses."""
+        """Forward and backward: the derivative with respect to the ellipses."""
         size = {"width": self.camera.width, "height": self.camera.height}
         return _both(projected, plan, self.cotangent, **size, settings=self.settings)
 
-    def pull(self, derivative: Projected) -> Gaussians:
-        return _pull(self.gaussians, self.camera, derivative, settings=self.settings)
+    def vjp(self, derivative: Projected) -> Gaussians:
+        return _vjp(self.gaussians, self.camera, derivative, settings=self.settings)
 
 
 def bench_step(n: int, width: int, height: int, *, size: float = 1.0, settings: RasterSettings, device: Any = None) -> Step:
@@ -112,7 +112,7 @@ def _both(projected: Projected, plan: TilePlan, cotangent: Render, *, width: int
 
 
 @functools.partial(jax.jit, static_argnames="settings", compiler_options=WIDE)
-def _pull(gaussians: Gaussians, camera: Camera, derivative: Projected, *, settings: RasterSettings):
+def _vjp(gaussians: Gaussians, camera: Camera, derivative: Projected, *, settings: RasterSettings):
     return jax.vjp(lambda g: project(g, camera, settings), gaussians)[1](derivative)[0]
 
 

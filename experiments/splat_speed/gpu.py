@@ -21,7 +21,7 @@ CASES = (
     ("100k, 688 x 384", 100_000, 688, 384),
     ("1M, 1376 x 768", 1_000_000, 1376, 768),
 )
-WALKS = (("kernels", {}), ("loops", {}), ("loops, all tiles in a block", {"block": 1 << 20}))
+COMPOSITORS = (("kernels", {}), ("loops", {}), ("loops, all tiles in a block", {"block": 1 << 20}))
 REPEATS = {"kernels": 20, "loops": 2}
 STARTED = 3
 """Steps of the fit after which all is compiled."""
@@ -32,14 +32,14 @@ def records(tiny: bool) -> Iterator[Record]:
         sys.exit(f"JAX sees no GPU here, only {jax.devices()}")
     for name, n, width, height in CASES[:1] if tiny else CASES:
         images = {}
-        for walk, settings in WALKS:
-            compositor = walk.split(",")[0]
+        for variant, settings in COMPOSITORS:
+            compositor = variant.split(",")[0]
             step = bench_step(n, width, height, settings=RasterSettings(compositor=compositor, **settings))
-            yield from measure(f"{name}, {walk}", step, REPEATS[compositor])
-            images[walk] = derivative_of(step)
-        for walk, derivative in images.items():
+            yield from measure(f"{name}, {variant}", step, REPEATS[compositor])
+            images[variant] = derivative_of(step)
+        for variant, derivative in images.items():
             error = np.linalg.norm(derivative - images["loops"]) / np.linalg.norm(images["loops"])
-            yield Record(figure="gpu", case=f"{name}, {walk}", key="derivative against loops", value=float(error), unit="")
+            yield Record(figure="gpu", case=f"{name}, {variant}", key="derivative against loops", value=float(error), unit="")
     yield from whole_fit(tiny)
 
 
@@ -55,7 +55,7 @@ def measure(case: str, step: Step, repeats: int) -> Iterator[Record]:
             "plan": lambda: step.plan(projected),
             "forward": functools.partial(step.forward, projected, plan),
             "both": functools.partial(step.both, projected, plan),
-            "its derivative": functools.partial(step.pull, step.both(projected, plan)),
+            "its derivative": functools.partial(step.vjp, step.both(projected, plan)),
             "whole step": step,
         },
         repeats,
@@ -73,7 +73,7 @@ def measure(case: str, step: Step, repeats: int) -> Iterator[Record]:
 
 
 def derivative_of(step: Step) -> np.ndarray:
-    """By all means of gaussians, in the order of the scene."""
+    """With respect to the means of all gaussians, in the order of the scene."""
     return np.asarray(step().means)
 
 

@@ -53,7 +53,7 @@ def measure(name: str, n: int, width: int, height: int, size: float, slanted: bo
             "plan": lambda: step.plan(projected),
             "forward": functools.partial(step.forward, projected, plan),
             "both": functools.partial(step.both, projected, plan),
-            "its derivative": functools.partial(step.pull, step.both(projected, plan)),
+            "its derivative": functools.partial(step.vjp, step.both(projected, plan)),
         },
         repeats,
     )

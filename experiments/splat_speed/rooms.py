@@ -58,7 +58,7 @@ def records(tiny: bool) -> Iterator[Record]:
 def fit_rooms(first: Gaussians, views, settings: FitSettings, capacity: Capacity, count: int) -> tuple:
     """The fit of so many rooms, the first given."""
     start = [dataclasses.replace(first, means=first.means + np.float32([APART * room, 0, 0])) for room in range(count)]
-    shared = {"settings": settings, "key": jax.random.key(0), "capacity": capacity, "devices": jax.devices()[:1]}
+    shared = {"settings": settings, "key": jax.random.key(0), "capacity": capacity, "devices": jax.devices()[:1], "workers": 1}
     result = fit_scene(start, functools.partial(views, count), **shared)
     assert not result.stopped, result.stopped
     return result.gaussians

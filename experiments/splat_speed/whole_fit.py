@@ -17,7 +17,7 @@ from records import Record, write
 from tests.splat.rooms import views_of
 from wm.host import cores, prepare_process
 from wm.schema import FitSettings, RasterSettings
-from wm.splat import TrainingView, fit_scene, initial_gaussians, plan_tiles, room_workers
+from wm.splat import TrainingView, fit_scene, initial_gaussians, plan_tiles
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.step import project_view
 from wm.types import Gaussians
@@ -35,25 +35,17 @@ def records(tiny: bool) -> Iterator[Record]:
     views = functools.partial(views_in, *size)
     start = initial_gaussians(views(0), settings=settings, rng=np.random.default_rng(0))
     visible, pairs = seen(start, views(0))
-    for how, places in ways():
-        record = functools.partial(Record, figure="whole_fit", case=f"two rooms, 688 x 384, {how}")
-        yield record(key="cores", value=cores(), unit="")
-        yield record(key="gaussians a room", value=len(start.means) / 1e3, unit="1e3")
-        yield record(key="visible", value=visible / 1e3, unit="1e3")
-        yield record(key="pairs a view", value=pairs / 1e6, unit="1e6")
-        fit = functools.partial(fit_rooms, start, views, places, Capacity())
-        first = seconds(functools.partial(fit, dataclasses.replace(settings, steps=1)))
-        rate = ROOMS * settings.steps / seconds(functools.partial(fit, settings))
-        yield record(key="rate", value=rate, unit="views/s", better="higher", wanted=20)
-        yield record(key="a view", value=1e3 / rate / exp_ns, unit="ms per ns of exp", better="lower", margin=MARGIN)
-        yield record(key="first step of each room", value=first, unit="s", better="lower")
-
-
-def ways() -> Iterator[tuple[str, dict]]:
-    """How rooms may be side by side, as arguments of `fit_scene`: in threads, and in processes."""
-    yield "threads", {"devices": jax.devices()[:1] * cores()}
-    with room_workers(cores()) as workers:
-        yield "processes", {"workers": workers}
+    record = functools.partial(Record, figure="whole_fit", case="two rooms, 688 x 384, threads")
+    yield record(key="cores", value=cores(), unit="")
+    yield record(key="gaussians a room", value=len(start.means) / 1e3, unit="1e3")
+    yield record(key="visible", value=visible / 1e3, unit="1e3")
+    yield record(key="pairs a view", value=pairs / 1e6, unit="1e6")
+    fit = functools.partial(fit_rooms, start, views, Capacity())
+    first = seconds(functools.partial(fit, dataclasses.replace(settings, steps=1)))
+    rate = ROOMS * settings.steps / seconds(functools.partial(fit, settings))
+    yield record(key="rate", value=rate, unit="views/s", better="higher", wanted=20)
+    yield record(key="a view", value=1e3 / rate / exp_ns, unit="ms per ns of exp", better="lower", margin=MARGIN)
+    yield record(key="first step of each room", value=first, unit="s", better="lower")
 
 
 def views_in(width: int, height: int, room: int) -> list[TrainingView]:
@@ -72,9 +64,10 @@ def seen(gaussians: Gaussians, views: Sequence[TrainingView]) -> tuple[float, fl
     return float(np.mean(visible)), float(np.mean(pairs))
 
 
-def fit_rooms(start: Gaussians, views, places: dict, capacity: Capacity, settings: FitSettings) -> tuple:
-    """The fit of all rooms from the same start."""
-    result = fit_scene([start] * ROOMS, views, settings=settings, key=jax.random.key(0), capacity=capacity, **places)
+def fit_rooms(start: Gaussians, views, capacity: Capacity, settings: FitSettings) -> tuple:
+    """The fit of all rooms from the same start, one room per core on one device."""
+    shared = {"key": jax.random.key(0), "capacity": capacity, "devices": jax.devices()[:1]}
+    result = fit_scene([start] * ROOMS, views, settings=settings, **shared)
     assert not result.stopped, result.stopped
     return result.gaussians
 

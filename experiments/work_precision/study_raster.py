@@ -59,7 +59,7 @@ class Case:
     repeats: int
 
     def result(self, settings: RasterSettings, planned=None):
-        """(rgb, derivative by the projected gaussians under a fixed random cotangent), planned from other gaussians if given."""
+        """(rgb, vector-Jacobian product for a fixed random cotangent), planned from other gaussians if given."""
         size = (self.camera.width, self.camera.height)
         projected = _project(self.gaussians, self.camera, settings)
         source = projected if planned is None else _project(planned, self.camera, settings)

@@ -136,12 +136,12 @@ def _gradient(renderer):
 
 
 fast_gradient = _gradient(render)
-"""(gaussians, camera, background, weights, settings) -> gradients by the first three of the weighted sum of the image."""
+"""(gaussians, camera, background, weights, settings) -> gradients of the weighted sum of the image, of the first three."""
 exact_gradient = _gradient(render_reference)
 
 
 def gradients(gaussians: Gaussians, view: Camera, background, settings: RasterSettings = SMOOTH, seed=1, kept=None):
-    """(fast, exact) gradients by gaussians, camera and background under one random cotangent, 0 where `kept` is False.
+    """(fast, exact) gradients of gaussians, camera and background for one random cotangent, 0 where `kept` is False.
 
     Depth is weighted with alpha: where next to nothing is seen, depth is next to nothing divided by next to nothing.
     """

@@ -44,7 +44,7 @@ class Case:
 
 
 def against_twin(gaussians: Gaussians, view: Camera, settings: RasterSettings = DEFAULT) -> Errors:
-    """Errors of `render` on the pixels that no rounding can decide otherwise, and of its gradient by all that it takes."""
+    """Errors of `render` on the pixels that no rounding can decide otherwise, and of its gradients of all its arguments."""
     near = undecided(gaussians, view, settings, alpha=2e-5, transmittance=1e-3)
     found, exact = images(gaussians, view, BACKGROUND, settings)
     found, exact = (x.replace(depth=x.depth * x.alpha) for x in (found, exact))
@@ -159,11 +159,11 @@ CASES = {
     ),
     "opacity logits of +-50": Case(
         measure=changed(opacity_logits=[50.0, -50.0] * 4),
-        promise="rounding; +50 is clamped at alpha_max, -50 is culled, and neither has a gradient by its logit",
+        promise="rounding; +50 is clamped at alpha_max, -50 is culled, and neither has a gradient with respect to its logit",
         **ROUNDING,
     ),
     "zero quaternions": Case(
-        measure=changed(quats=np.zeros((8, 4))), promise="the identity, zero gradient by the quaternion", **ROUNDING
+        measure=changed(quats=np.zeros((8, 4))), promise="the identity, zero gradient with respect to the quaternion", **ROUNDING
     ),
     "means at the camera's centre": Case(measure=changed(means=np.zeros((4, 3))), promise="culled, zero gradient", **ROUNDING),
     "means behind the camera": Case(

@@ -61,7 +61,7 @@ def test_gradient_against_float64_differences_under_a_cotangent_map(argument):
         np.testing.assert_allclose(gradient[index], (values[0] - values[1]) / (2 * step), rtol=2e-4, atol=1e-5)
 
 
-def test_the_passes_stay_apart_when_compiled():
+def test_the_passes_are_not_fused_when_compiled():
     x = jnp.zeros((8, 8, 3))
     assert jitted_map.lower(x, x).compile().as_text().count(" conditional(") == 8  # two passes of four images
 

@@ -1,28 +1,13 @@
-"""Gaussian splatting in JAX: from gaussians and a camera to an image, and back to better gaussians.
+"""Gaussian splatting in JAX: from gaussians and a camera to an image, and from images to gaussians.
 
-    render.py     render: one call from gaussians to an image, in and out of jit
-    project.py    project -> Projected: ellipses on the image plane
-    tiles.py      plan_tiles -> TilePlan: which gaussians touch which tiles, front to back (host); tiles_traced.py: in the graph;
-                  planner.py: which of the two
-    composite.py  rasterize: alpha compositing over a plan, with its own derivative; _loops.py, _kernels.py: the walk, for XLA
-                  anywhere and for NVIDIA GPUs; _pairs.py: one gaussian at one pixel
-    _blocks.py    what is done for each gaussian, a block of them at a time
-    checks.py     what is wrong with the arguments
-    harmonics.py  the colour's dependence on direction
-    _reference.py render_reference: the slow float64 twin of render
-
-    training.py   TrainingView: what a fit is shown
-    cloud.py      initial_gaussians: the scaffold's surfaces, thinned and coloured
-    ssim.py       ssim, with its own derivative; normal_loss.py likewise; losses.py: what a fit minimises
-    step.py       one step; batch.py: the views of a step, over devices; frozen.py: what a fit renders and does not move
-    room_fit.py   the loop of steps; room_state.py, checkpoint.py: where it stands; padding.py: the shapes that steps share
-    watch.py      is it getting better; trouble.py: what is wrong if not; curve.py: its error against time
-    exposure.py   tone of each view; refine.py: faint gaussians given to where the residual stays
-    fit.py        fit: views of one room; scene_fit.py, scene_progress.py: fit_scene, many rooms side by side
-    scene_render.py  SceneRenderer: renders of many rooms
-    room_task.py  what the fit of one of them reads; room_worker.py: room_workers, which do it in processes of their own
-    metrics.py    error against the truth and the scaffold; reprojection.py: consistency between views
-    ply.py        load_ply, save_ply
+    rasterizer    render, project, plan_tiles, rasterize: gaussians to images, with hand-written derivatives
+    optimization  fit, initial_gaussians: the gaussians of one room from its training views
+    scene         fit_scene, SceneRenderer: many rooms, each beside frozen neighbours
+    xla           fusion barriers, vector width and blocks for XLA on a CPU
+    similarity    ssim, with a hand-written derivative
+    metrics       psnr, depth_error, normal_error: errors against the truth and the scaffold
+    reprojection  reprojection_error: consistency of depth between views
+    ply           load_ply, save_ply
 """
 
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
@@ -38,7 +23,6 @@ from wm.splat.rasterizer.rendering import render
 from wm.splat.rasterizer.tiles import TilePlan, plan_tiles, plan_views
 from wm.splat.rasterizer.tiles_traced import TracedPlan, plan_tiles_on_device, plan_tiles_traced
 from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, reprojection_error, shared_pixels
-from wm.splat.scene.room_worker import RoomWorker, room_workers
 from wm.splat.scene.scene_fit import SceneFit, fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.splat.similarity import ssim, ssim_map
@@ -55,7 +39,6 @@ __all__ = [
     "PlyError",
     "Projected",
     "ReprojectionError",
-    "RoomWorker",
     "SceneFit",
     "SceneRenderer",
     "TilePlan",
@@ -80,7 +63,6 @@ __all__ = [
     "rasterize",
     "render",
     "reprojection_error",
-    "room_workers",
     "save_ply",
     "shared_pixels",
     "ssim",

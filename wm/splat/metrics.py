@@ -1,10 +1,12 @@
-"""How good gaussians are, as pure functions of arrays on the host (design.md, section 6: the definitions are ours).
+"""Errors of renders against the truth and the scaffold, as pure functions of arrays on the host (the definitions are ours).
 
     psnr                      of an image against the image that should be there
     depth_error               M-MAE, M-RMSE: splat depth against the scaffold's, metres
     normal_error              N-Cos, N-Ang: normals of the splat depth against the scaffold's
-    reprojection_error        of one view's splat depth moved into another
-Every mean is over the pixels that a mask says are comparable; over none of them it is NaN, never 0. SSIM is in ssim.py.
+    normals_from_depth        world normals from central differences of a depth; one_surface: where they are comparable
+
+Every mean is over the pixels of a mask; over no pixel it is NaN, never 0. SSIM is in similarity.py, consistency between views in
+reprojection.py.
 """
 
 import dataclasses
@@ -35,7 +37,11 @@ class NormalError:
 def psnr(
     image: Float[np.ndarray, "h w c"], truth: Float[np.ndarray, "h w c"], mask: Bool[np.ndarray, "h w"] | None = None
 ) -> float:
-    """Peak signal-to-noise ratio in dB of an image (clipped to [0, 1]) against the truth over the mask; inf for equal ones."""
+    """Peak signal-to-noise ratio in dB of an image (clipped to [0, 1]) against the truth over the mask; inf for equal ones.
+
+    scikit-image's `peak_signal_noise_ratio` gives the same number (tests/splat/test_metrics_peer.py); it is not called because
+    the package would then depend on scikit-image for one line, and because it warns for equal images and for an empty mask.
+    """
     squared = (np.clip(image, 0, 1).astype(np.float64) - truth) ** 2
     error = _mean(squared if mask is None else squared[mask])
     return float(-10 * np.log10(error)) if error != 0 else float("inf")

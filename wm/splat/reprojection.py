@@ -1,4 +1,4 @@
-"""Cross-view consistency of depth: the splat depth of view i, moved into view j, against the splat depth of j there.
+"""Cross-view consistency of depth: the splat depth of view i, reprojected into view j, against the splat depth of j there.
 
     p = unproject_i(D_i),  z_ij = depth of p in j,  compared with D_j at the pixel on which p falls,
     AbsRel = mean |z_ij - D_j| / D_j,   MAE-norm = mean |z_ij - D_j| / median D_j

@@ -6,12 +6,16 @@ With a gaussian window b (11 taps, sigma 1.5, zero padding) and, per pixel and c
                            B1 = m_x^2 + m_y^2 + c1,  B2 = s_xx + s_yy + c2 = b * (x^2 + y^2) - m_x^2 - m_y^2 + c2
 
 S depends on x through m_x, b * (x^2 + y^2) and b * (x y), so its gradient is three more blurs of its partial derivatives (b is
-even), and that by y shares two of them:
+even), and the gradient with respect to y shares two of them:
 
     dL/dx = b * (g S_mx) + 2 x  b * (g S_q) + y  b * (g S_xy),   S_q = -S / B2,   S_xy = 2 A1 / (B1 B2)
 
 The blur is separable. XLA on a CPU fuses the two passes and then recomputes the inner one once per outer tap, several times
-slower, so each pass is compiled apart. A last axis of 3 is not vectorised: the arithmetic is done on planes [c, h, w].
+slower, so a fusion barrier follows each pass. A last axis of 3 is not vectorised: the arithmetic is done on planes [c, h, w].
+
+scikit-image's `structural_similarity` is the independent check (tests/splat/test_similarity_peer.py: equal maps away from the
+border) and cannot take the place of this one: a fit needs the derivative, inside jit and on the device. With the barriers an
+image of 688 x 384 x 3 takes 14 ms on a CPU core, without them 160 ms.
 
 Source: Wang et al. 2004, eq. 13 (c1 = 0.01^2, c2 = 0.03^2 for images in [0, 1]); window and padding as in 3D Gaussian Splatting.
 """
@@ -23,7 +27,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from wm.splat.xla.fusion_barrier import apart
+from wm.splat.xla.fusion_barrier import fusion_barrier
 
 RADIUS = 5
 _taps = np.exp(-0.5 * (np.arange(-RADIUS, RADIUS + 1) / 1.5) ** 2)
@@ -34,7 +38,7 @@ C1, C2 = 0.01**2, 0.03**2
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
 class _Residual:
-    """The images and the partial derivatives of the map: by the means, by b * (x^2 + y^2), by b * (x y)."""
+    """The images, and the partial derivatives of the map with respect to the means, b * (x^2 + y^2) and b * (x y)."""
 
     x: Array
     y: Array
@@ -79,8 +83,8 @@ def _forward(x, y):
         direct = 2 * other * a2 / (b1 * b2) - 2 * mean * similarity / b1
         return direct - 2 * mean * d_squares - other * d_mixed
 
-    by_means = d_mean(mean_x, mean_y), d_mean(mean_y, mean_x)
-    return similarity, _Residual(x, y, *by_means, d_squares=d_squares, d_mixed=d_mixed)
+    d_means = d_mean(mean_x, mean_y), d_mean(mean_y, mean_x)
+    return similarity, _Residual(x, y, *d_means, d_squares=d_squares, d_mixed=d_mixed)
 
 
 def _backward(residual: _Residual, cotangent):
@@ -94,7 +98,7 @@ _of_planes.defvjp(_forward, _backward)
 
 def _blur(*images):
     """Both passes of the window over each of the images [c, h, w], zero outside."""
-    never = images[0][0, 0, 0] > jnp.inf  # which XLA does not see through
+    never = images[0][0, 0, 0] > jnp.inf  # which XLA cannot fold
     return [_pass(never, _pass(never, image, axis=1), axis=2) for image in images]
 
 
@@ -108,4 +112,4 @@ def _pass(never: Bool[Array, ""], image, *, axis: int):
         shifted = [jax.lax.slice_in_dim(padded, k, k + image.shape[axis], axis=axis) for k in range(2 * RADIUS + 1)]
         return TAPS[RADIUS] * shifted[RADIUS] + sum(TAPS[k] * (shifted[k] + shifted[-1 - k]) for k in range(RADIUS))
 
-    return apart(never, sums, image)
+    return fusion_barrier(never, sums, image)

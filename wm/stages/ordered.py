@@ -15,7 +15,7 @@ AHEAD = 2
 
 
 def in_order(work: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:
-    """`work(item)` for every item, in the items' order, on a thread a core."""
+    """`work(item)` for every item, in the items' order, on one thread per core."""
     pending: collections.deque[Future[Result]] = collections.deque()
     with ThreadPoolExecutor(cores(), thread_name_prefix="wm-ordered") as pool:
         try:

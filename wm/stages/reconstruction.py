@@ -11,12 +11,12 @@ import numpy as np
 from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, visible_rooms
-from wm.host import cores
+from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
 from wm.splat.ply import save_ply
 from wm.splat.scene.scene_fit import fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
-from wm.stages.fitters import Fitters
+from wm.stages.executors import room_executor, worker_count
 from wm.stages.heldout import HeldOut
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
@@ -42,17 +42,17 @@ class Reconstruction:
     renderer: SceneRenderer  # of the rooms
 
 
-def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, fitters: Fitters) -> Reconstruction:
-    """The gaussians of the scene, in `splats.ply`."""
+def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, capacity: Capacity) -> Reconstruction:
+    """The gaussians of the scene, in `splats.ply`. The capacity is that of the warm-up: the fit runs what was compiled for it."""
     with job.stage("reconstruct"):
         config = job.config
         key = job.key("reconstruct", painted.key, config.fit, config.raster)
         if not job.folder.has("reconstruct", key):
-            _fit(job, scene, painted, heldout, fitters, key)
+            _fit(job, scene, painted, heldout, capacity, key)
         rooms = _split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes()))
         return Reconstruction(
             rooms=rooms,
-            renderer=SceneRenderer(rooms, config.raster, capacity=fitters.capacity),
+            renderer=SceneRenderer(rooms, config.raster, capacity=capacity),
             history=_read_history(job.folder.path / HISTORY),
             key=key,
         )
@@ -90,7 +90,7 @@ def _read_history(file: pathlib.Path) -> tuple[dict, ...]:
         return ()
 
 
-def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, fitters: Fitters, key: str) -> None:
+def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Capacity, key: str) -> None:
     config, folder = job.config, job.folder
     rooms = range(len(scene.plan.rooms))
 
@@ -128,7 +128,8 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, fitters: Fit
 
     children = seeds.spawn(len(rooms))
     start = list(in_order(initial, rooms))
-    with job.bar("reconstruct", len(rooms) * config.fit.steps) as bar:
+    workers = worker_count(config.workers)
+    with job.bar("reconstruct", len(rooms) * config.fit.steps) as bar, room_executor(config.executor, workers) as executor:
 
         def progress(done: int, total: int, info: dict) -> None:
             if "loss" in info:
@@ -145,10 +146,10 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, fitters: Fit
             load=load,
             store=store,
             progress=progress,
-            capacity=fitters.capacity,
-            # Without workers: one room a core on one device; a step is compiled once, and XLA runs calls of threads side by side.
-            devices=jax.devices()[:1] * cores(),
-            workers=fitters.workers,
+            capacity=capacity,
+            devices=jax.devices()[:1],  # for all rooms: a step is compiled once, and XLA runs calls of threads side by side
+            executor=executor,
+            workers=workers,
         )
     for line in result.stopped:
         print(f"reconstruct: {line}")

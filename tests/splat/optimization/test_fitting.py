@@ -183,7 +183,7 @@ def test_who_computes_a_batch_changes_no_byte():
 @pytest.mark.slow
 def test_two_devices_give_the_bytes_of_one():
     code = (
-        "import dataclasses, jax; from tests.splat import test_fit as t; from wm.splat import SceneRenderer;"
+        "import dataclasses, jax; from tests.splat.optimization import test_fitting as t; from wm.splat import SceneRenderer;"
         "settings = dataclasses.replace(t.SETTINGS, steps=4, batch=3); n, found = len(t.START.means), set();"
         "lie = lambda *_: found.update(d for x in jax.live_arrays() if x.shape == (n, 4) for d in x.devices());"
         "second = jax.default_device(jax.devices()[1]); second.__enter__();"

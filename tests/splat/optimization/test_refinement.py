@@ -94,7 +94,7 @@ def test_the_faintest_go_to_where_the_residual_pulls_most():
     assert len(dead) == len(split) == N // 4 and set(dead) == set(range(0, N, 4)) and not set(dead) & set(split)
     assert dead[0] == 36  # the faintest
     rest = np.setdiff1d(np.arange(N), [*dead, *split])
-    assert residual.pull[split].min() >= residual.pull[rest].max()
+    assert residual.gradient_norm[split].min() >= residual.gradient_norm[rest].max()
     few = dataclasses.replace(SETTINGS, refine_share=0.1)
     assert [len(found) for found in choose(gaussians, residual, few)] == [4, 4]
 
@@ -122,7 +122,7 @@ def test_a_visit_that_does_not_show_a_gaussian_does_not_count():
     shift = np.zeros((2, 3), np.float32)
     shift[:, 1] = (3, 4)
     residual = observe(observe(no_residual(3), shift), 0 * shift)
-    assert residual.pull.tolist() == [0, 5, 0] and residual.visits.tolist() == [0, 1, 0]
+    assert residual.gradient_norm.tolist() == [0, 5, 0] and residual.visits.tolist() == [0, 1, 0]
 
 
 def test_refinement_comes_every_so_many_steps_and_ends_before_the_fit():

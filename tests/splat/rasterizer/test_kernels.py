@@ -107,7 +107,7 @@ def test_settings_that_nothing_answers_to_are_named(wrong, message):
         render(cloud(2), camera(), settings=RasterSettings(**wrong))
 
 
-def test_tiles_that_do_not_suit_kernels_are_walked_by_loops():
+def test_tiles_that_do_not_suit_kernels_are_composited_by_loops():
     gaussians, view = to_float32(cloud()), to_float32(camera())
     image = render(gaussians, view, settings=RasterSettings(tile=5))
     np.testing.assert_allclose(image.rgb, render(gaussians, view).rgb, atol=1e-6)

@@ -16,7 +16,7 @@ from wm.schema import RasterSettings
 from wm.splat import project
 from wm.splat.rasterizer._reference import _image_axes
 from wm.splat.rasterizer.harmonics import harmonics
-from wm.splat.rasterizer.projection import pull_gaussians
+from wm.splat.rasterizer.projection import project_vjp
 
 
 def test_means_go_where_the_camera_sends_points():
@@ -120,7 +120,7 @@ def test_the_derivative_beside_a_known_result_is_the_derivative(raster):
     gaussians, view = to_float32(cloud(40, degree=2)), to_float32(camera(seed=3))
     projected, pull = jax.vjp(lambda gaussians: project(gaussians, view, raster), gaussians)
     cotangent = jax.tree.map(lambda x: jnp.cos(jnp.arange(x.size, dtype=x.dtype)).reshape(x.shape), projected)
-    chex.assert_trees_all_equal(pull_gaussians(gaussians, view, projected, cotangent, raster), *pull(cotangent))
+    chex.assert_trees_all_equal(project_vjp(gaussians, view, projected, cotangent, raster), *pull(cotangent))
 
 
 def test_zero_quaternion_is_the_identity_with_zero_gradient():

@@ -114,7 +114,8 @@ def in_graph(devices: int):
 @pytest.mark.parametrize("way", ["two_phases", "in_graph"])
 def test_shard_map_over_two_devices(alone, way, tmp_path):
     code = (
-        "import sys, jax, numpy as np; from tests.splat import test_transformations as t; assert len(jax.devices()) == 2;"
+        "import sys, jax, numpy as np; from tests.splat.rasterizer import test_transformations as t;"
+        "assert len(jax.devices()) == 2;"
         "found = jax.tree.leaves(getattr(t, sys.argv[1])(2)); np.savez(sys.argv[2], *map(np.asarray, found))"
     )
     env = os.environ | {"JAX_NUM_CPU_DEVICES": "2", "JAX_PLATFORMS": "cpu"}

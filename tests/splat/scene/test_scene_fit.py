@@ -15,10 +15,10 @@ from tests.splat.rooms import views_of
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.optimization.checkpoint import from_arrays, to_arrays
 from wm.splat.optimization.cloud import initial_gaussians
+from wm.splat.optimization.divergence_monitor import start_monitor
 from wm.splat.optimization.exposure import no_exposure
 from wm.splat.optimization.refinement import no_residual, observe
 from wm.splat.optimization.room_state import initial_state
-from wm.splat.optimization.watch import start_watch
 from wm.splat.scene.scene_fit import fit_scene
 
 ROOMS = 3
@@ -29,8 +29,8 @@ START = [initial_gaussians(views, settings=SETTINGS, rng=np.random.default_rng(0
 
 
 def run(start=START, views=VIEWS, devices=1, settings=SETTINGS, **kwargs):
-    where = [jax.devices()[0]] * devices
-    return fit_scene(start, views.__getitem__, settings=settings, raster=RASTER, key=jax.random.key(0), devices=where, **kwargs)
+    where = {"devices": [jax.devices()[0]] * devices, "workers": devices}
+    return fit_scene(start, views.__getitem__, settings=settings, raster=RASTER, key=jax.random.key(0), **where | kwargs)
 
 
 def raw(gaussians):
@@ -44,6 +44,7 @@ def once():
 
 def test_scheduling_changes_no_byte(once):
     assert raw(run(devices=2).gaussians) == raw(once.gaussians)
+    assert raw(run(devices=1, workers=None).gaussians) == raw(once.gaussians)
 
 
 def test_devices_beyond_the_rooms_share_their_batches_and_change_no_byte():
@@ -146,15 +147,15 @@ def test_a_state_survives_its_arrays():
         since=np.ones((2, 4)),
         exposure=no_exposure(3),
         residual=observe(no_residual(n), np.ones((2, n), np.float32)),
-        watch=start_watch(START[0], 1, 3, 4),
+        monitor=start_monitor(START[0], 1, 3, 4),
         stopped="why",
     )
     arrays = to_arrays(state)
     again = to_arrays(from_arrays(arrays))
     assert arrays.keys() == again.keys()
     assert all(arrays[name].tobytes() == again[name].tobytes() and arrays[name].dtype == again[name].dtype for name in arrays)
-    assert {name.split(".")[0] for name in to_arrays(initial_state(START[0]))}.isdisjoint({"exposure", "residual", "watch"})
-    for name in ("mu.sh", "watch.best.sh", "watch.known", "residual.visits"):
+    assert {name.split(".")[0] for name in to_arrays(initial_state(START[0]))}.isdisjoint({"exposure", "residual", "monitor"})
+    for name in ("mu.sh", "monitor.best.sh", "monitor.known", "residual.visits"):
         with pytest.raises(ValueError, match=rf"has no {name}:"):
             from_arrays({key: value for key, value in arrays.items() if key != name})
 
@@ -181,7 +182,7 @@ def test_a_room_that_stops_keeps_its_last_good_state_and_the_others_go_on():
 @pytest.mark.slow
 def test_two_devices_give_the_bytes_of_one():
     code = (
-        "import hashlib, jax; from tests.splat import test_scene_fit as t; from wm.splat.scene.scene_fit import fit_scene;"
+        "import hashlib, jax; from tests.splat.scene import test_scene_fit as t; from wm.splat.scene.scene_fit import fit_scene;"
         "fit = fit_scene(t.START, t.VIEWS.__getitem__, settings=t.SETTINGS, raster=t.RASTER, key=jax.random.key(0));"
         "print(len(jax.devices()), hashlib.sha256(b''.join(b for g in fit.gaussians for b in t.raw(g))).hexdigest())"
     )
@@ -197,10 +198,10 @@ def test_two_devices_give_the_bytes_of_one():
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "sched_getaffinity") or len(os.sched_getaffinity(0)) < 2, reason="needs several cores")
 def test_one_core_gives_the_bytes_of_all():
-    """Large enough that XLA would cut loops into a part a core, whose roundings differ (`WHOLE`)."""
+    """Large enough that XLA would cut loops into a part a core, whose roundings differ (`UNPARTITIONED`)."""
     code = (
         "import os, sys; os.sched_setaffinity(0, set(map(int, sys.argv[1:])));"
-        "import dataclasses, hashlib, numpy as np; from tests.splat import test_scene_fit as t;"
+        "import dataclasses, hashlib, numpy as np; from tests.splat.scene import test_scene_fit as t;"
         "settings = dataclasses.replace(t.SETTINGS, spacing=0.1, steps=2, rounds=1);"
         "views = [t.views_of(count=2, width=160, height=96)];"
         "start = [t.initial_gaussians(views[0], settings=settings, rng=np.random.default_rng(0))];"

@@ -8,7 +8,7 @@ import pytest
 
 from tests.splat.scenes import camera, cloud, to_float32
 from wm.splat import project
-from wm.splat.xla.fusion_barrier import apart
+from wm.splat.xla.fusion_barrier import fusion_barrier
 
 
 def branches(traced, platform: str) -> int:
@@ -24,7 +24,7 @@ def test_a_border_changes_no_result_and_is_where_it_is_needed(everywhere, defaul
     monkeypatch.setattr(jax, "default_backend", lambda: default)
 
     def twice(x):
-        return apart(x[0] == -jnp.inf, lambda x: {"sum": x + 1, "product": 2 * x}, x, everywhere=everywhere)
+        return fusion_barrier(x[0] == -jnp.inf, lambda x: {"sum": x + 1, "product": 2 * x}, x, everywhere=everywhere)
 
     traced = jax.jit(twice).trace(jnp.arange(3.0))
     assert {name: list(x) for name, x in jax.jit(twice)(jnp.arange(3.0)).items()} == {"sum": [1, 2, 3], "product": [0, 2, 4]}

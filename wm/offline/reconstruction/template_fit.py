@@ -51,7 +51,7 @@ _SHEET = 0.12
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Fit:
+class TemplateFit:
     """What a template came to."""
 
     box: UprightBox
@@ -59,7 +59,7 @@ class Fit:
     residual: float  # metres between the points seen and the template, median
 
 
-def fit_template(evidence: Evidence) -> Fit:
+def fit_template(evidence: Evidence) -> TemplateFit:
     """The box that the template fills best."""
     boxes, costs = _refined(_best_guesses(evidence), evidence, _TRIES)
     best = boxes[[int(np.argmin(costs))]]
@@ -67,7 +67,7 @@ def fit_template(evidence: Evidence) -> Fit:
     ends = [(*_refined(best, way, _STEPS), way) for way in (evidence, anew)]
     boxes, costs, way = min(ends, key=lambda end: float(end[1][0]))
     residual = float(np.median(seen_distances(boxes, way, nearest(boxes, way))))
-    return Fit(UprightBox(*boxes[0].tolist()), cost=float(costs[0]), residual=residual)
+    return TemplateFit(UprightBox(*boxes[0].tolist()), cost=float(costs[0]), residual=residual)
 
 
 def _best_guesses(evidence: Evidence) -> np.ndarray:

@@ -1,15 +1,21 @@
 """The optimisation of one room's gaussians.
 
-    fitting       fit: views of one room
-    training      TrainingView: what a fit is shown
-    cloud         initial_gaussians: the scaffold's surfaces, thinned and coloured
-    room_fit      the loop of steps; room_state, checkpoint: where it stands
-    step          one step; batch: its views, over devices; frozen: what is rendered and not moved
-    losses        what a fit minimises; normal_loss: the loss of normals
-    padding       padding buckets, so that rooms and steps share what is compiled
-    watch         divergence monitor; trouble: what is wrong, in words
-    checks        what is wrong with the settings of a fit
-    curve         error against time
-    exposure      tone of each view
-    refinement    faint gaussians given to where the residual stays
+    fitting             fit: gaussians optimised toward views of one room
+    checks              what is wrong with the settings of a fit
+    training            TrainingView: a posed image with the scaffold's depth and a mask
+    cloud               initial_gaussians: the scaffold's surfaces, one gaussian per cell
+    room_fit            RoomFit: the loop over steps
+    room_state          RoomState: what the next step reads
+    checkpoint          a RoomState as named arrays
+    step                one step: view_gradient and move, compiled
+    batch               the gradients of a batch of views, over devices
+    frozen              gaussians that are rendered and not moved
+    losses              the terms of the loss
+    normal_loss         the loss of normals, with a hand-written derivative
+    padding             padding buckets, so that rooms and steps share compiled functions
+    divergence_monitor  DivergenceMonitor: detects a fit that diverges
+    diagnosis           what is wrong with a fit, in a sentence
+    curve               FitPoint: error against time
+    exposure            gain and offset of each view
+    refinement          transparent gaussians reused where the residual stays large
 """

@@ -1,7 +1,7 @@
-"""The views of a step: which they are, and the gradient of each, over as many devices as there are.
+"""The batch of views of a step, and the gradient of each of them, computed on one or several devices.
 
-Gradients do not depend on one another, so each device takes every d-th view of the batch in a thread of its own: projection, plan
-(planner.py), gradient. They come back in the order of the batch, so their mean does not depend on the number of devices.
+Gradients do not depend on one another, so each of d devices computes those of every d-th view of the batch, one thread per
+device: projection, plan (planner.py), gradient. They are returned in the order of the batch, so their mean does not depend on d.
 """
 
 import dataclasses
@@ -16,7 +16,7 @@ import numpy as np
 from wm.schema import RasterSettings
 from wm.splat.optimization.frozen import join_columns
 from wm.splat.optimization.padding import Capacity, host, plan_with
-from wm.splat.optimization.step import Gradient, Moving, Rates, StepTerms, Target, project_view, rasterize_view, view_gradient
+from wm.splat.optimization.step import Gradient, Rates, StepTerms, Target, Trainable, project_view, rasterize_view, view_gradient
 from wm.splat.optimization.training import TrainingView
 from wm.splat.rasterizer.planner import plans_on_host
 from wm.splat.rasterizer.projection import Projected
@@ -27,14 +27,14 @@ Device = Any
 
 
 def default_device() -> Device:
-    """Where JAX computes unless told otherwise: `jax.default_device`, whatever form it has, or the first there is."""
+    """The device on which JAX computes by default: `jax.default_device`, in any of its forms, or the first device."""
     (device,) = jnp.zeros(()).devices()
     return device
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SeenView:
-    """A view on the device, and the frozen gaussians as it sees them."""
+    """A view on the device, and the projections of the frozen gaussians in it."""
 
     target: Target
     frozen: Projected | None  # on the device too
@@ -42,7 +42,7 @@ class SeenView:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ViewLoss:
-    """What one view says about the gaussians."""
+    """The loss of one view and its gradient."""
 
     view: int
     terms: StepTerms  # on the host
@@ -51,24 +51,24 @@ class ViewLoss:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Compiled:
-    """What is fixed while a fit runs: what its steps are compiled for."""
+    """The constants for which the steps of a fit are compiled."""
 
     raster: RasterSettings  # of `raster_for`
     normals: bool  # whether the loss has a term of normals
     capacity: Capacity
 
-    def loss(self, view: int, seen: SeenView, moving: Moving, rates: Rates, device: Device) -> ViewLoss:
+    def loss(self, view: int, seen: SeenView, trainable: Trainable, rates: Rates, device: Device) -> ViewLoss:
         """The loss of one view and its gradient, computed on a device."""
-        target, frozen, moving = jax.device_put((seen.target, seen.frozen, moving), device)
-        own = project_view(moving.gaussians, target.camera, raster=self.raster)
+        target, frozen, trainable = jax.device_put((seen.target, seen.frozen, trainable), device)
+        own = project_view(trainable.gaussians, target.camera, raster=self.raster)
         projected, plan = self._planned(own, frozen, target.camera)
         kind = (device, target.camera.width, target.camera.height, projected.mean2d.shape[1], len(plan.ids))
         with self.capacity.compiled(*kind):
-            terms, gradient = view_gradient(moving, own, target, frozen, plan, rates, raster=self.raster, normals=self.normals)
+            terms, gradient = view_gradient(trainable, own, target, frozen, plan, rates, raster=self.raster, normals=self.normals)
         return ViewLoss(view=view, terms=jax.device_get(terms), gradient=gradient)
 
     def render(self, gaussians: Gaussians, seen: SeenView) -> Render:
-        """What a view sees, on the host."""
+        """The render of a view, on the host."""
         camera = seen.target.camera
         own = project_view(gaussians, camera, raster=self.raster)
         projected, plan = self._planned(own, seen.frozen, camera)
@@ -85,7 +85,7 @@ def batch_losses(
     compiled: Compiled,
     views: Sequence[SeenView],
     batch: Sequence[int],
-    moving: Sequence[Moving],
+    trainable: Sequence[Trainable],
     rates: Rates,
     devices: Sequence[Device],
 ) -> list[ViewLoss]:
@@ -95,14 +95,14 @@ def batch_losses(
         compiled: what the steps are compiled for.
         views: all views.
         batch: indices into them.
-        moving: what the gradient of each of the batch is by.
+        trainable: per view of the batch, what its loss is differentiated with respect to.
         rates: of the step.
-        devices: one or more; those beyond the batch stay idle.
+        devices: one or more; those beyond the size of the batch stay idle.
     """
 
     def share(first: int) -> list[ViewLoss]:
         mine = range(first, len(batch), len(devices))
-        return [compiled.loss(batch[k], views[batch[k]], moving[k], rates, devices[first]) for k in mine]
+        return [compiled.loss(batch[k], views[batch[k]], trainable[k], rates, devices[first]) for k in mine]
 
     workers = min(len(devices), len(batch))
     if workers == 1:
@@ -114,13 +114,13 @@ def batch_losses(
 
 
 def batch_at(seed: tuple[int, ...], step: int, size: int, views: int) -> list[int]:
-    """Which views a step is taken toward: `size` of them, or all if there are fewer."""
+    """Indices of the views of a step: `size` of them, or all if there are fewer."""
     size = min(size, views)
     return [view_at(seed, visit, views) for visit in range(step * size, (step + 1) * size)]
 
 
 def view_at(seed: tuple[int, ...], visit: int, views: int) -> int:
-    """Which view is seen at a visit: every epoch is its own permutation, a function of the seed alone."""
+    """The index of the view of a visit: every epoch is a permutation of its own, which depends on the seed alone."""
     epoch, place = divmod(visit, views)
     return int(np.random.default_rng(np.random.SeedSequence([*seed, epoch])).permutation(views)[place])
 

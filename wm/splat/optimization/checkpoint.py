@@ -6,10 +6,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from wm.splat.optimization.curve import FitPoint
+from wm.splat.optimization.divergence_monitor import DivergenceMonitor
 from wm.splat.optimization.refinement import Residual
 from wm.splat.optimization.room_state import RoomState
 from wm.splat.optimization.step import TrainState, adam_state
-from wm.splat.optimization.watch import Watch
 from wm.types import Gaussians
 
 _LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
@@ -20,7 +20,7 @@ _OTHERS = ("count", "step", "history", "since", "stopped")
 def to_arrays(state: RoomState) -> dict[str, np.ndarray]:
     """The state as arrays: `gaussians.means`, `mu.means`, `nu.means` ..., `count`, `history` [points, fields], `stopped` ...
 
-    What the settings leave out is not stored: `exposure`, `residual.*`; nor, at the end of a round, `watch.*`.
+    What the settings leave out is not stored: `exposure`, `residual.*`; nor, at the end of a round, `monitor.*`.
     """
     moments = state.train.moments
     groups = dict(zip(_GROUPS, (state.train.gaussians, moments.mu, moments.nu)))
@@ -35,7 +35,7 @@ def to_arrays(state: RoomState) -> dict[str, np.ndarray]:
     }
     if state.exposure is not None:
         arrays["exposure"] = state.exposure
-    for name in ("residual", "watch"):
+    for name in ("residual", "monitor"):
         record = getattr(state, name)
         arrays |= {} if record is None else _flat(name, record)
     return arrays
@@ -47,7 +47,7 @@ def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
     Raises: ValueError naming what is missing, or that the history has other fields.
     """
     needed = [*(f"{group}.{leaf}" for group in _GROUPS for leaf in _LEAVES), *_OTHERS]
-    for prefix, kind in (("residual", Residual), ("watch", Watch)):
+    for prefix, kind in (("residual", Residual), ("monitor", DivergenceMonitor)):
         needed += _names(kind, prefix) if _has(prefix, arrays) else []
     missing = [name for name in needed if name not in arrays]
     if missing:
@@ -64,7 +64,7 @@ def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
         since=np.asarray(arrays["since"]),
         exposure=arrays.get("exposure"),
         residual=_record(Residual, "residual", arrays),
-        watch=_record(Watch, "watch", arrays),
+        monitor=_record(DivergenceMonitor, "monitor", arrays),
         stopped=str(arrays["stopped"]) or None,
     )
 

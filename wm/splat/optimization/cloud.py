@@ -1,13 +1,13 @@
 """The initial gaussians of a room: the scaffold's surfaces as its views see them, thinned to a spacing.
 
-Every pixel that shows the room's own surface is a world point with a normal and a colour. Points are gathered in cells of the
-wanted spacing, those of differently facing surfaces apart (a corner keeps one gaussian for each of its walls), and a cell
-becomes one gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. What has
-detail, objects and the near side of every silhouette, is gathered in smaller cells: there a gaussian that reaches past the edge
-costs depth and normals most. Views are folded in one at a time, so memory is bounded by the room's surface.
+Every pixel that shows the room's own surface is a world point with a normal and a colour. Points are binned into cells of the
+wanted spacing and by the direction that their surface faces (so a corner keeps one gaussian per wall), and a cell becomes one
+gaussian: the mean of its points, their mean normal, and the mean of the usable colours over all views. Cells are smaller where
+there is detail, on objects and on the near side of every silhouette: there a gaussian that reaches past the edge costs depth and
+normals most. Views are folded in one at a time, so memory is bounded by the room's surface.
 
-Surface that none of the room's views shows would stay a hole in the room, black from wherever it is seen after all: from the
-next room, or in the corner behind a chair. `vacant` finds where the cloud leaves a surface bare, `extended` covers it.
+Surface that none of the room's views shows would stay a black hole wherever another view sees it: from the next room, or in the
+corner behind a chair. `vacant` finds the points where the cloud does not cover a surface, `extended` adds them to the cloud.
 """
 
 import dataclasses

@@ -1,4 +1,4 @@
-"""Better gaussians from views of one room, or of whatever the views show together."""
+"""`fit`: gaussians optimised toward views of one room, or of anything else that the views show together."""
 
 import dataclasses
 import time
@@ -23,20 +23,20 @@ from wm.splat.rasterizer.projection import DEFAULTS
 from wm.types import Gaussians
 
 Progress = Callable[[int, int, dict], None]
-"""Called with (steps done, steps in all, what is worth showing) after every step."""
+"""Called with (steps done, steps in all, a dict of values worth showing) after every step."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Fit:
-    """What a fit came to."""
+    """The result of a fit."""
 
     gaussians: Gaussians  # NumPy float32 leaves, in the order of those it started from
-    history: tuple[FitPoint, ...]  # error against time, up to these gaussians: points of steps that were taken back are not in it
+    history: tuple[FitPoint, ...]  # error against time up to these gaussians, without points of later steps that were discarded
     stopped: str | None  # why it ended early, in one sentence; None: it ran to its end
 
 
 class FitError(RuntimeError):
-    """A fit was ended by an exception, of `progress` for example, which is the cause of this; `fit` is what was reached."""
+    """An exception, of `progress` for example, ended a fit, and is the cause of this one; `fit` is what was reached."""
 
     def __init__(self, message: str, fit: Fit) -> None:
         super().__init__(message)
@@ -63,13 +63,13 @@ def fit(
         settings: steps, learning rates, weights of the loss, points of the curve. (`rounds` is for `fit_scene`.)
         raster: the rasterizer's constants; `depth` is set here: without depth weight no depth is rendered.
         key: a JAX key; the order of the views follows from it. Same key, same bytes.
-        frozen: gaussians that are rendered too and not moved. A view's scaffold hides what is well behind it (frozen.py).
+        frozen: gaussians that are rendered too and not moved. Those well behind the scaffold of a view are left out (frozen.py).
         heldout: views to measure the curve on; never trained on.
         progress: called after every step.
         devices: where to compute; JAX's default device if None. Several share the views of a batch, and change no byte.
 
-    Returns: the gaussians and the curve. Where a loss or gradient is not finite, or the loss blows up (watch.py), the fit ends
-        early with the last good state, or the best, and `stopped` names room, step, view and term; never NaN. A
+    Returns: the gaussians and the curve. Where a loss or gradient is not finite, or the loss diverges (divergence_monitor.py),
+        the fit ends early with the last good state, or the best, and `stopped` names room, step, view and term; never NaN. A
         KeyboardInterrupt ends it likewise.
     Raises: TypeError or ValueError that names what is wrong with an argument: no views, a number of the settings out of its
         range, gaussians of other shapes or not finite, no key. FitError from any other exception on the way.
@@ -124,14 +124,14 @@ def see_views(
     device: Device,
     columns_for: Callable[[int], int] = lambda most: most,
 ) -> list[SeenView]:
-    """Views on a device, each with what it sees of its frozen gaussians.
+    """Views on a device, each with the projections of the frozen gaussians that it sees.
 
     Args:
-        views: n of them.
+        views: n views.
         frozen: for each view, sets of gaussians on the device.
         raster: the rasterizer's constants.
-        device: where.
-        columns_for: how many columns all views get, from the largest number that one of them needs; 0 for none at all.
+        device: where the arrays are put.
+        columns_for: maps the largest number of columns that one view needs to the number to which all are padded; 0: no columns.
     """
     targets = [to_target(view, device) for view in views]
     parts = [

@@ -1,7 +1,7 @@
-"""Gaussians that a view sees and that its fit does not move: neighbouring rooms through their doors.
+"""Frozen gaussians: those of neighbouring rooms, which a view sees through doors and which the fit of its room does not move.
 
-They do not change while the fit runs, so they are projected once per view, and what the scaffold hides from the view is
-dropped: a room behind a wall costs nothing, and what is left is a small set of ellipses, already on the image plane.
+They do not change while the fit runs, so they are projected once per view, and those that the scaffold hides from the view are
+dropped: a room behind a wall costs nothing, and what is left is a small set of projected ellipses.
 """
 
 import math
@@ -51,7 +51,7 @@ def join_columns(*parts: Projected | None) -> Projected:
 
 
 def pad_columns(projected: Projected | None, size: int) -> Projected:
-    """Columns up to `size`: those added (all of them for None) have opacity and extent 0, so nothing lists them."""
+    """Columns up to `size`: those added (all of them for None) have opacity and extent 0, so no tile lists them."""
     if projected is None:
         rows = {"mean2d": 2, "root": 3, "color": 3, "slope": 2, "extent": 2}
         empty = {name: np.zeros((rows[name], 0) if name in rows else 0, np.float32) for name in ("opacity", "depth", *rows)}

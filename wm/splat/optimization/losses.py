@@ -3,9 +3,8 @@
     L = (1 - w) mean |C - I|  +  w mean (1 - SSIM(C, I))  +  d mean |D - D_S|  +  n mean (1 - cos(N, N_S))
 
 over the usable pixels of a view: C, D rendered colour and depth, I the image, D_S the scaffold's depth in metres, N and N_S the
-normals of both depths (that term is ours). A pixel that
-the mask leaves out has no term of its own, and takes the image's colour before the SSIM window passes over it, so that it does
-not act on its neighbours either.
+normals of both depths (that term is ours). A pixel outside the mask has no term of its own, and takes the image's colour before
+the SSIM window passes over it, so that it does not affect its neighbours either.
 """
 
 import jax.numpy as jnp
@@ -27,6 +26,6 @@ def photometric_terms(
 def depth_loss(depth: Float[Array, "h w"], scaffold_depth: Float[Array, "h w"], mask: Bool[Array, "h w"]) -> Float[Array, ""]:
     """Mean |depth - scaffold_depth| in metres over the pixels of the mask where the scaffold is hit (its depth is above 0).
 
-    A scaffold's depth of NaN counts, so that the loss tells of it.
+    A scaffold's depth of NaN counts, so that the loss becomes NaN and the fit reports it.
     """
     return masked_mean(jnp.abs(depth - scaffold_depth), mask & ~(scaffold_depth <= 0))

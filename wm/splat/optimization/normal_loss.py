@@ -6,8 +6,9 @@ along N = (-g, -h, 1 + a g + b h): central differences of the points, exactly. W
     e = d(1 - c)/dN = (c n - m) / |N|,   d(1 - c)/dg = a e_2 - e_0,   d(1 - c)/dh = b e_2 - e_1,
     dg/dD_right = 2 f_x D_left / (D_right + D_left)^2,   and likewise for the other three neighbours.
 
-So the gradient at a pixel is four products: its neighbours' derivatives by g or h, and the depths two pixels off. Left to itself
-XLA on a CPU pads and adds the derivatives of eight slices, and repeats the arithmetic in each: four times as slow.
+So the gradient at a pixel is the sum of four products: derivatives with respect to g or h at its neighbours, times depths two
+pixels away. The derivative that JAX makes by itself pads and adds the derivatives of eight slices, and XLA on a CPU repeats the
+arithmetic in each: four times as slow.
 """
 
 import jax
@@ -15,7 +16,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
 from wm.numerics import safe_div
-from wm.splat.xla.fusion_barrier import apart
+from wm.splat.xla.fusion_barrier import fusion_barrier
 
 BEND = 1e-3
 """Relative second difference of 1 / depth up to which neighbouring pixels count as one surface: it is 0 on a plane."""
@@ -31,8 +32,8 @@ def normal_loss(
 ) -> Float[Array, ""]:
     """Mean 1 - cosine between the normals of two depths, where the scaffold is one smooth surface and the mask holds.
 
-    Between two pixels without depth the difference is taken to be 0, and so is its gradient (`safe_div`). Differentiable in
-    `depth`; by all else the gradient is 0.
+    Between two pixels without depth the difference is taken to be 0, and so is its gradient (`safe_div`). Differentiable
+    with respect to `depth` only.
     """
     return _forward(depth, scaffold_depth, mask, focal, principal)[0]
 
@@ -54,29 +55,29 @@ def _forward(depth, scaffold_depth, mask, focal, principal):
         return (-g * inverse, -h * inverse, z * inverse), inverse
 
     def costs(depth, scaffold_depth, used):
-        """1 - cosine at the inner pixels, its derivative by g times 2 f_x / (D_right + D_left)^2, and by h likewise."""
+        """1 - cosine at the inner pixels, its derivative with respect to g times 2 f_x / (D_right + D_left)^2, and h likewise."""
         (n, inverse), (m, _) = unit(depth), unit(scaffold_depth)
         cosine = sum(p * q for p, q in zip(n, m))
         e = [(cosine * p - q) * inverse for p, q in zip(n, m)]
-        by_ratios = [
-            safe_div(2 * f * by, (before + after) ** 2)
-            for f, by, (before, after) in zip(focal, (a * e[2] - e[0], b * e[2] - e[1]), _neighbours(depth))
+        d_ratios = [
+            safe_div(2 * f * d, (before + after) ** 2)
+            for f, d, (before, after) in zip(focal, (a * e[2] - e[0], b * e[2] - e[1]), _neighbours(depth))
         ]
-        return jnp.where(used, jnp.stack([1 - cosine, *by_ratios]), 0.0)
+        return jnp.where(used, jnp.stack([1 - cosine, *d_ratios]), 0.0)
 
     never = depth[0, 0] > jnp.inf
-    cost, *by_ratios = apart(never, costs, depth, scaffold_depth, used)
+    cost, *d_ratios = fusion_barrier(never, costs, depth, scaffold_depth, used)
     count = jnp.maximum(jnp.sum(used), 1)
-    return jnp.sum(cost) / count, (never, depth, by_ratios, count)
+    return jnp.sum(cost) / count, (never, depth, d_ratios, count)
 
 
 def _backward(residual, cotangent):
     if residual is None:
         return None, None, None, None, None
-    never, depth, by_ratios, count = residual
+    never, depth, d_ratios, count = residual
 
     def gradient(depth, across, down):
-        """At every pixel: what it is to its neighbours, whose derivatives and other neighbours lie one and two pixels off."""
+        """The derivative with respect to every depth, through its four neighbours and the depths on their other sides."""
         rows, columns = depth.shape
         across, down = jnp.pad(across, ((1, 1), (2, 2))), jnp.pad(down, ((2, 2), (1, 1)))
         wide, high = jnp.pad(depth, ((0, 0), (2, 2))), jnp.pad(depth, ((2, 2), (0, 0)))
@@ -88,7 +89,7 @@ def _backward(residual, cotangent):
         )
 
     scale = cotangent / count
-    return apart(never, gradient, depth, *(scale * by for by in by_ratios)), None, None, None, None
+    return fusion_barrier(never, gradient, depth, *(scale * d for d in d_ratios)), None, None, None, None
 
 
 normal_loss.defvjp(_forward, _backward)

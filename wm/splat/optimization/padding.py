@@ -1,4 +1,5 @@
-"""Common shapes, so that rooms, views and steps share what is compiled: padded rows, and plans of one capacity."""
+"""Padding to common shapes, so that rooms, views and steps share compiled functions: rows of gaussians, and plans of one
+capacity."""
 
 import contextlib
 import threading
@@ -14,14 +15,14 @@ from wm.splat.rasterizer.tiles import TilePlan
 from wm.types import Gaussians
 
 CULLED_LOGIT = -50.0
-"""Opacity logit of padding: far below any alpha cut, so that padding is projected, culled, and neither listed nor moved."""
+"""Opacity logit of padding: far below any alpha cut, so that padding is culled by the projection and has no gradient."""
 
 HEADROOM = 3.0
-"""Room in a plan's capacity over what the first views need: gaussians grow while they are fitted."""
+"""Factor between the capacity of a plan and what the first view needs, since gaussians grow while they are fitted."""
 
 
 class Capacity:
-    """How many plan entries the compiled steps have room for: shared by all fits of a scene, only ever grown (in steps of x1.5).
+    """The number of plan entries for which steps are compiled, shared by all fits of a scene. It only grows, by factors of 1.5.
 
     It bounds recompilation and changes no result: entries beyond a plan's own are padding.
     """
@@ -42,7 +43,8 @@ class Capacity:
 
     @contextlib.contextmanager
     def compiled(self, *kind: Hashable) -> Iterator[None]:
-        """Around a step of a kind (its shapes, its device): the first is alone, so that threads do not compile side by side."""
+        """A context for a step of a kind (its shapes, its device). The first of a kind runs alone, so that only one thread
+        compiles it."""
         if kind in self._compiled:
             yield
             return
@@ -67,7 +69,7 @@ def host(tree):
 
 
 def pad_gaussians(gaussians: Gaussians, size: int) -> Gaussians:
-    """Gaussians in fresh NumPy float32 arrays of `size` rows; those added are culled wherever they are seen from."""
+    """Gaussians in new NumPy float32 arrays of `size` rows; the added rows are culled in every view."""
     padded = pad_rows(gaussians, size)
     padded.opacity_logits[len(gaussians.opacity_logits) :] = CULLED_LOGIT
     return padded

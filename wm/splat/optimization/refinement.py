@@ -1,14 +1,15 @@
-"""Refinement within a fixed number of gaussians: those whose opacity has died, or never lived, go where the residual stays.
+"""Refinement within a fixed number of gaussians: transparent ones are reused to split those whose residual stays large.
 
-The residual stays at gaussian i if moving it on the image would lower the loss: s_i = mean of |dL / d mean2d_i| over the visits
-that showed it. A dead gaussian is given to the one of the largest s: that one is split along its longest axis. With sigma its
-standard deviation there, the halves sit at +- sigma / 2 and have sqrt(3/4) sigma, so that centre and covariance stay. One behind
-the other their optical depths -ln(1 - alpha) add, and the integral of that along the axis stays too, which fixes their opacity:
+The residual at gaussian i is large if moving it on the image would lower the loss: s_i = mean of |dL / d mean2d_i| over the
+visits that showed it. A dead (transparent) gaussian is reused for the one with the largest s, which is split along its longest
+axis. With sigma its standard deviation there, the halves sit at +- sigma / 2 and have sqrt(3/4) sigma, so that centre and
+covariance stay. One behind the other their optical depths -ln(1 - alpha) add, and the integral of that along the axis stays too,
+which fixes their opacity:
 
     Li(o') = Li(o) / sqrt(3),  Li(o) = sum over k >= 1 of o^k / k^(3/2)   (integrate the series of the logarithm term by term)
 
 Source: the criterion is that of Kerbl et al., "3D Gaussian Splatting" (2023), the reuse of dead ones that of Kheradmand et al.,
-"3DGS as Markov Chain Monte Carlo" (2024). There the halves sit on one spot and are told apart by noise; ours need none.
+"3DGS as Markov Chain Monte Carlo" (2024). There the halves have the same centre and noise separates them; ours need no noise.
 """
 
 import dataclasses
@@ -23,7 +24,7 @@ from wm.splat.optimization.step import TrainState, adam_state
 from wm.types import Gaussians
 
 UNTIL = 0.75
-"""Share of the steps after which nothing is split any more: what was has to settle."""
+"""Share of the steps after which no gaussian is split any more, so that the last halves can converge."""
 
 _OPACITIES = np.linspace(0, 0.99, 500)
 _TERMS = np.arange(1, 500)
@@ -33,21 +34,21 @@ _DEPTHS = (_OPACITIES[:, None] ** _TERMS / _TERMS**1.5).sum(axis=1)
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Residual:
-    """How strongly the residual pulls at each of n gaussians, since the last refinement. On the host."""
+    """The gradient of the loss with respect to the projected centres of n gaussians since the last refinement. On the host."""
 
-    pull: np.ndarray  # [n] float32 sum of |dL / d mean2d|, per pixel
+    gradient_norm: np.ndarray  # [n] float32 sum of |dL / d mean2d|, per pixel
     visits: np.ndarray  # [n] int32 how many visits showed it
 
 
 def no_residual(count: int) -> Residual:
-    """Of `count` gaussians that nothing was asked about yet."""
-    return Residual(pull=np.zeros(count, np.float32), visits=np.zeros(count, np.int32))
+    """The residual of `count` gaussians before the first visit."""
+    return Residual(gradient_norm=np.zeros(count, np.float32), visits=np.zeros(count, np.int32))
 
 
-def observe(residual: Residual, shift: Float[np.ndarray, "2 n"]) -> Residual:
-    """The residual after a visit, from the derivative of its loss by the centres on the image."""
-    pull = np.hypot(*shift)
-    return Residual(pull=residual.pull + pull, visits=residual.visits + (pull > 0))
+def observe(residual: Residual, gradient: Float[np.ndarray, "2 n"]) -> Residual:
+    """The residual after a visit, from the derivative of its loss with respect to the projected centres."""
+    norm = np.hypot(*gradient)
+    return Residual(gradient_norm=residual.gradient_norm + norm, visits=residual.visits + (norm > 0))
 
 
 def is_due(settings: FitSettings, step: int) -> bool:
@@ -56,7 +57,7 @@ def is_due(settings: FitSettings, step: int) -> bool:
 
 
 def refine(train: TrainState, residual: Residual, settings: FitSettings) -> TrainState:
-    """The state with dead gaussians moved; as many as before, in the same order. On the host, no row padded.
+    """The state with dead gaussians reused; as many as before, in the same order. On the host, no row padded.
 
     Both halves start without moments. Ties go to the lower index, so equal states give equal bytes.
     """
@@ -75,10 +76,10 @@ def refine(train: TrainState, residual: Residual, settings: FitSettings) -> Trai
 
 
 def choose(gaussians: Gaussians, residual: Residual, settings: FitSettings) -> tuple[np.ndarray, np.ndarray]:
-    """Indices of the dead gaussians to give away, faintest first, and of as many to split, most wanting first."""
+    """Indices of the dead gaussians to reuse, most transparent first, and of as many to split, largest residual first."""
     threshold = np.log(settings.refine_dead / (1 - settings.refine_dead))
     logits = gaussians.opacity_logits
-    score = np.where(logits > threshold, residual.pull / np.maximum(residual.visits, 1), 0)
+    score = np.where(logits > threshold, residual.gradient_norm / np.maximum(residual.visits, 1), 0)
     dead = np.argsort(logits, kind="stable")[: np.count_nonzero(logits <= threshold)]
     split = np.argsort(-score, kind="stable")[: np.count_nonzero(score > 0)]
     most = min(len(dead), len(split), int(settings.refine_share * len(logits)))
@@ -86,7 +87,7 @@ def choose(gaussians: Gaussians, residual: Residual, settings: FitSettings) -> t
 
 
 def halves(whole: Gaussians) -> tuple[Gaussians, Gaussians]:
-    """Two gaussians for each, in place of it."""
+    """The two gaussians that replace each gaussian."""
     rows = np.arange(len(whole.opacity_logits))
     axis = whole.log_scales.argmax(axis=1)
     sigma = np.exp(whole.log_scales[rows, axis].astype(np.float64))

@@ -1,4 +1,4 @@
-"""Where the fit of a room stands: all that it needs to go on, so that stopping and going on changes no byte."""
+"""The state of the fit of a room: all that the next step reads, so that a fit which stops and resumes ends in the same bytes."""
 
 import dataclasses
 import math
@@ -6,10 +6,10 @@ import math
 import numpy as np
 
 from wm.splat.optimization.curve import MEANS, FitPoint
+from wm.splat.optimization.divergence_monitor import DivergenceMonitor
 from wm.splat.optimization.padding import pad_rows, unpad_rows
 from wm.splat.optimization.refinement import Residual
 from wm.splat.optimization.step import TrainState, start_state
-from wm.splat.optimization.watch import Watch
 from wm.splat.rasterizer.checks import check_gaussians
 from wm.types import Gaussians
 
@@ -26,14 +26,14 @@ class RoomState:
     since: np.ndarray = dataclasses.field(default_factory=lambda: NOTHING_SINCE)  # [k, means] of each step since the last point
     exposure: np.ndarray | None = None  # [views, 2, 3] of exposure.py, once it is used
     residual: Residual | None = None  # since the last refinement, once there is one to come
-    watch: Watch | None = None  # None between rounds
-    stopped: str | None = None  # why it will not go on, in one sentence
+    monitor: DivergenceMonitor | None = None  # None between rounds
+    stopped: str | None = None  # why it ended early, in one sentence
 
     @property
-    def watched(self) -> Watch:
-        """The watch of a run under way."""
-        assert self.watch is not None
-        return self.watch
+    def running_monitor(self) -> DivergenceMonitor:
+        """The monitor, which is there while the steps of a round run."""
+        assert self.monitor is not None
+        return self.monitor
 
 
 def initial_state(gaussians: Gaussians, name: str = "gaussians") -> RoomState:

@@ -1,7 +1,7 @@
 """One step of the fit: render a view, compare (`view_gradient`), then move the gaussians (`move`).
 
-The first is compiled per (gaussian, frozen and plan capacity, image size), the second per number of gaussians and of views a
-step; everything that changes from step to step or from fit to fit is an argument.
+The first is compiled once per combination of padded sizes (gaussians, frozen gaussians, plan capacity) and image size, the second
+once per number of gaussians and of views in a batch; everything that changes from step to step or from fit to fit is an argument.
 """
 
 import dataclasses
@@ -19,15 +19,15 @@ from wm.splat.optimization.exposure import expose
 from wm.splat.optimization.losses import depth_loss, photometric_terms
 from wm.splat.optimization.normal_loss import normal_loss
 from wm.splat.rasterizer.compositing import rasterize
-from wm.splat.rasterizer.projection import Projected, project, pull_gaussians
+from wm.splat.rasterizer.projection import Projected, project, project_vjp
 from wm.splat.rasterizer.tiles import TilePlan
 from wm.splat.xla.vector_width import WIDE
 from wm.types import Camera, Gaussians, Render
 
-WHOLE = WIDE | {"xla_disable_hlo_passes": "cpu-parallel-task-assigner"}
-"""Compiler options for all that decides a byte of a fit. On a CPU XLA cuts large loops into as many parts as the process has
-cores, and a part is compiled to other roundings than the whole. Left whole, a fit has the same bytes on any number of cores, and
-takes no longer: rooms side by side keep the cores busy."""
+UNPARTITIONED = WIDE | {"xla_disable_hlo_passes": "cpu-parallel-task-assigner"}
+"""Compiler options of all functions that decide a byte of a fit. By default XLA on a CPU partitions large loops, one part per
+core of the process, and a part is compiled to other roundings than the whole loop. Without partitioning a fit has the same bytes
+on any number of cores, and takes no longer, since rooms side by side keep the cores busy."""
 
 _adam = optax.scale_by_adam(eps=1e-15)
 
@@ -44,7 +44,7 @@ class TrainState:
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
 class Target:
-    """What a view should show, on the device: `TrainingView` without what only the host needs."""
+    """The image and depth that a view should show, on the device: `TrainingView` without what only the host needs."""
 
     camera: Any
     rgb: Any  # [h, w, 3] uint8
@@ -54,8 +54,8 @@ class Target:
 
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
-class Moving:
-    """What a view's loss is differentiated by."""
+class Trainable:
+    """What the loss of a view is differentiated with respect to."""
 
     gaussians: Any
     exposure: Any = None  # [2, 3] of exposure.py; None: the render is compared as it is
@@ -66,14 +66,14 @@ class Moving:
 class Gradient:
     """The derivative of a view's loss."""
 
-    moving: Any  # Moving
-    centres: Any  # [2, n] by the centres on the image, per pixel: where the residual pulls
+    trainable: Any  # Trainable
+    centres: Any  # [2, n] with respect to the projected centres, per pixel
 
 
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
 class Rates:
-    """What a step is steered by: learning rates by leaf (already decayed) and the weights of the loss. Scalars, traced."""
+    """Learning rates per leaf (already decayed) and the weights of the loss in one step. Scalars, traced."""
 
     learning: Any  # Gaussians of floats
     exposure: Any
@@ -92,7 +92,7 @@ class StepTerms:
     dissimilarity: Any  # mean 1 - SSIM
     depth: Any  # metres
     normal: Any  # mean 1 - cosine
-    finite: Any  # Moving of bool
+    finite: Any  # Trainable of bool
 
 
 def raster_for(settings: FitSettings, raster: RasterSettings) -> RasterSettings:
@@ -101,7 +101,7 @@ def raster_for(settings: FitSettings, raster: RasterSettings) -> RasterSettings:
 
 
 def start_state(gaussians: Gaussians) -> TrainState:
-    """A state with no history."""
+    """The state before the first step: its moments are zero."""
     mu, nu = (jax.tree.map(np.zeros_like, gaussians) for _ in range(2))
     return TrainState(gaussians=gaussians, moments=adam_state(np.zeros((), np.int32), mu, nu))
 
@@ -130,21 +130,21 @@ def rates_at(settings: FitSettings, step: int, steps: int) -> Rates:
     )
 
 
-@functools.partial(jax.jit, static_argnames="raster", compiler_options=WHOLE)
+@functools.partial(jax.jit, static_argnames="raster", compiler_options=UNPARTITIONED)
 def project_view(gaussians: Gaussians, camera: Camera, *, raster: RasterSettings) -> Projected:
     """`project`, compiled."""
     return project(gaussians, camera, raster)
 
 
-@functools.partial(jax.jit, static_argnames=("width", "height", "raster"), compiler_options=WHOLE)
+@functools.partial(jax.jit, static_argnames=("width", "height", "raster"), compiler_options=UNPARTITIONED)
 def rasterize_view(projected: Projected, plan: TilePlan, *, width: int, height: int, raster: RasterSettings) -> Render:
     """`rasterize`, compiled."""
     return rasterize(projected, plan, width, height, raster)
 
 
-@functools.partial(jax.jit, static_argnames=("raster", "normals"), compiler_options=WHOLE)
+@functools.partial(jax.jit, static_argnames=("raster", "normals"), compiler_options=UNPARTITIONED)
 def view_gradient(
-    moving: Moving,
+    trainable: Trainable,
     own: Projected,
     target: Target,
     frozen: Projected | None,
@@ -157,7 +157,7 @@ def view_gradient(
     """The loss of one view and its gradient.
 
     Args:
-        moving: what the gradient is by. What is None is neither computed nor compiled.
+        trainable: what the loss is differentiated with respect to. For a leaf that is None nothing is computed or compiled.
         own: its gaussians as this view sees them, of `project_view`.
         target: the view.
         frozen: other gaussians as this view sees them: rendered, not moved.
@@ -180,22 +180,22 @@ def view_gradient(
         loss = (1 - rates.ssim) * l1 + rates.ssim * dissimilarity + rates.depth * depth + rates.normal * normal
         return loss, (l1, dissimilarity, depth, normal)
 
-    by_all = jax.value_and_grad(objective, argnums=(0, 1), has_aux=True)
-    (loss, (l1, dissimilarity, depth, normal)), (by_own, by_exposure) = by_all(own, moving.exposure)
-    gradient = Moving(gaussians=pull_gaussians(moving.gaussians, camera, own, by_own, raster), exposure=by_exposure)
+    value_and_grad = jax.value_and_grad(objective, argnums=(0, 1), has_aux=True)
+    (loss, (l1, dissimilarity, depth, normal)), (g_own, g_exposure) = value_and_grad(own, trainable.exposure)
+    gradient = Trainable(gaussians=project_vjp(trainable.gaussians, camera, own, g_own, raster), exposure=g_exposure)
     finite = jax.tree.map(lambda leaf: jnp.isfinite(leaf).all(), gradient)
     terms = StepTerms(loss=loss, l1=l1, dissimilarity=dissimilarity, depth=depth, normal=normal, finite=finite)
-    return terms, Gradient(moving=gradient, centres=by_own.mean2d)
+    return terms, Gradient(trainable=gradient, centres=g_own.mean2d)
 
 
-@functools.partial(jax.jit, donate_argnums=0, compiler_options=WHOLE)
+@functools.partial(jax.jit, donate_argnums=0, compiler_options=UNPARTITIONED)
 def move(state: TrainState, gradients: Sequence[Gaussians], learning: Gaussians) -> TrainState:
-    """The state after one step along the mean of finite gradients; the state's buffers are used up.
+    """The state after one step along the mean of finite gradients; the state's buffers are donated.
 
     Args:
-        state: what moves.
-        gradients: one for each view of the batch, on the state's device.
-        learning: rates by leaf.
+        state: the state before.
+        gradients: one per view of the batch, on the state's device.
+        learning: learning rates per leaf.
     """
     gradient = jax.tree.map(lambda *leaves: sum(leaves[1:], leaves[0]) / len(leaves), *gradients)
     updates, moments = _adam.update(gradient, state.moments)

@@ -1,4 +1,4 @@
-"""What the fit is shown: an image, the depth of the scaffold behind it, and which of its pixels may be believed."""
+"""A training view: a posed image, the depth of the scaffold at its pixels, and the mask of its usable pixels."""
 
 import dataclasses
 

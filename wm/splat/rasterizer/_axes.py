@@ -1,5 +1,5 @@
-"""What the projection and its derivative share: how a gaussian's axes turn, where the camera's slopes are clamped, by how much
-opacity makes up for the blur, and how depth varies over an ellipse."""
+"""Functions that the projection and its vector-Jacobian product share: rotations of quaternions, the clamp of slopes near the
+frustum, the compensation of opacity for the blur, and the slope of depth over an ellipse."""
 
 import functools
 
@@ -18,7 +18,7 @@ faint is below or near the alpha cut in any case."""
 def rotations(quats):
     """Rotation matrices [3][3] of quaternions [4] of any length; the zero quaternion is the identity with zero gradient.
 
-    The rotation does not depend on the length, so dividing by the largest component is free of a derivative of its own.
+    The rotation does not depend on the length, so dividing by the largest component needs no derivative.
     """
     (w, x, y, z), _ = by_largest(quats)
     s = safe_div(jnp.full_like(w, 2.0), w * w + x * x + y * y + z * z)
@@ -30,7 +30,8 @@ def rotations(quats):
 
 
 def by_largest(quats):
-    """Quaternions [4] over the size of their largest component, whose squares cannot overflow, and that size; zero stays zero."""
+    """Quaternions [4] divided by the size of their largest component, so that squares cannot overflow, and that size. Zero stays
+    zero."""
     largest = jax.lax.stop_gradient(functools.reduce(jnp.maximum, map(jnp.abs, quats)))
     return [row / jnp.where(largest == 0, 1.0, largest) for row in quats], largest
 
@@ -58,7 +59,7 @@ def has_slope(settings: RasterSettings) -> bool:
 
 
 def depth_slope(M, N, det, settings: RasterSettings):
-    """Sigma^-1 (M_0 . M_2, M_1 . M_2), metres a pixel; by products of minors (Binet-Cauchy), so that needles keep their digits.
+    """Sigma^-1 (M_0 . M_2, M_1 . M_2), metres per pixel; by products of minors (Binet-Cauchy), so that needles keep their digits.
 
     Args:
         M: [3][3] rows of n; N: M_0 x M_1; det: of Sigma, blurred.

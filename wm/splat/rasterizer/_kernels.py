@@ -1,12 +1,12 @@
-"""Alpha compositing and its derivative as kernels for NVIDIA GPUs, through Pallas and Triton; composite.py holds the equations.
+"""Alpha compositing and its derivative as kernels for NVIDIA GPUs, through Pallas and Triton; compositing.py holds the equations.
 
-A program is one tile, and its pixels are one vector: it walks the tile's list a gaussian at a time, front to back, until the list
-ends or every pixel is finished. Where the loops of _loops.py launch a dozen kernels for every chunk of every block and meet in
-memory between them, here transmittance and features stay in registers from the first gaussian to the last.
+A program composites one tile, and its pixels are one vector: it traverses the tile's list one gaussian per iteration, front to
+back, until the list ends or every pixel is finished. Where the loops of _loops.py launch a dozen kernels for every chunk of every
+block and meet in memory between them, here transmittance and features stay in registers from the first gaussian to the last.
 
-The derivative by a gaussian is a sum over the pixels of each tile that lists it, reduced within the program, and over those
-tiles. The latter is not left to atomic additions, which come in any order: programs write a row for every entry of the lists, and
-a second kernel adds the rows of a gaussian as they are listed. So derivatives, like images, repeat to the bit.
+The derivative with respect to a gaussian is a sum over the pixels of each tile that lists it, reduced within the program, and
+over those tiles. The latter is not left to atomic additions, which come in any order: programs write a row for every entry of the
+lists, and a second kernel adds the rows of a gaussian as they are listed. So derivatives, like images, repeat to the bit.
 
 The kernels are Triton's, which Pallas deprecates from JAX 0.11 on; its successor there knows Hopper and later GPUs only.
 """
@@ -31,10 +31,10 @@ from wm.splat.rasterizer.tiles import TilePlan
 warnings.filterwarnings("ignore", "The Pallas Triton backend is deprecated", DeprecationWarning)
 
 UNROLLED = 8
-"""Gaussians between two looks at whether any pixel is open; their rows are fetched while the first of them is composited."""
+"""Gaussians per test whether any pixel is open; their rows are fetched while the first of them is composited."""
 
 SUMMED = 8
-"""Gaussians whose rows one program adds up, side by side."""
+"""Gaussians whose rows one program adds up."""
 
 LANES = 16
 """Length of the vector that holds a row of the table, a power of two as Triton asks."""
@@ -66,9 +66,9 @@ def backward(
     settings: RasterSettings,
     interpret: bool = False,
 ):
-    """The derivative by the table, from what `forward` returned and the derivative by it."""
+    """The cotangent of the table, from what `forward` returned and the cotangent of that."""
     ids, tile, start, _ = _lists(plan)
-    final, by_final = ((x.transmittance, x.features) for x in (composite, cotangent))
+    final, g_final = ((x.transmittance, x.features) for x in (composite, cotangent))
     call = pl.pallas_call(
         functools.partial(_backward, columns=columns, settings=settings),
         grid=(len(tile),),
@@ -79,7 +79,7 @@ def backward(
         name="composite_derivative",
     )
     nothing = jnp.zeros((len(ids), table.shape[1]), jnp.float32)  # of an entry that nothing visits
-    rows = call(nothing, table, ids, tile, start, composite.length, *final, *by_final)
+    rows = call(nothing, table, ids, tile, start, composite.length, *final, *g_final)
     return _sums_by_gaussian(rows, ids, len(table), interpret)
 
 
@@ -108,53 +108,53 @@ def _lists(plan: TilePlan):
 
 def _forward(table, ids, tile, start, count, t_out, F_out, length_out, *, columns: int, settings: RasterSettings):
     lane = pl.program_id(0)
-    walk = _Walk(table, ids, tile[lane], start[lane], count[lane], columns, settings)
+    tile_list = _TileList(table, ids, tile[lane], start[lane], count[lane], columns, settings)
 
     def step(state):
         i, _, t, F = state
         for k in range(UNROLLED):
-            gaussian = walk.gaussian(i + k)
+            gaussian = tile_list.gaussian(i + k)
             w = weight(t, gaussian.alpha, settings)
             F = [total + w * feature for total, feature in zip(F, gaussian.features)]
             t = t - w
         return i + UNROLLED, jnp.max(t), t, F
 
     def goes_on(state):
-        return (state[0] < walk.count) & (state[1] >= settings.transmittance_min)
+        return (state[0] < tile_list.count) & (state[1] >= settings.transmittance_min)
 
-    one, zero = jnp.ones_like(walk.u), jnp.zeros_like(walk.u)
-    start_of_walk = (jnp.int32(0), jnp.float32(1), one, [zero] * F_out.shape[1])
-    visited, _, t, F = jax.lax.while_loop(goes_on, step, start_of_walk)
+    one, zero = jnp.ones_like(tile_list.u), jnp.zeros_like(tile_list.u)
+    start_state = (jnp.int32(0), jnp.float32(1), one, [zero] * F_out.shape[1])
+    visited, _, t, F = jax.lax.while_loop(goes_on, step, start_state)
     t_out[lane, :] = t
     for j, feature in enumerate(F):
         F_out[lane, j, :] = feature
-    length_out[lane] = jnp.minimum(visited, walk.count)
+    length_out[lane] = jnp.minimum(visited, tile_list.count)
 
 
 def _backward(_, table, ids, tile, start, length, t_end, F_end, g_t, g_F, rows, *, columns: int, settings: RasterSettings):
     lane, features = pl.program_id(0), F_end.shape[1]
-    walk = _Walk(table, ids, tile[lane], start[lane], length[lane], columns, settings)
-    by_features = [g_F[lane, j, :] for j in range(features)]
-    u, v = walk.u, walk.v
+    tile_list = _TileList(table, ids, tile[lane], start[lane], length[lane], columns, settings)
+    g_features = [g_F[lane, j, :] for j in range(features)]
+    u, v = tile_list.u, tile_list.v
     powers = {0: (jnp.ones_like(u), jnp.ones_like(v)), 1: (u, v), 2: (u * u, v * v)}
     column, nothing = jnp.arange(LANES), jnp.zeros(LANES, jnp.float32)
 
     def step(i, state):
         t, rest = state
-        gaussian = walk.gaussian(i)
+        gaussian = tile_list.gaussian(i)
         w = weight(t, gaussian.alpha, settings)
-        share = w * sum(f * g for f, g in zip(gaussian.features, by_features))
+        share = w * sum(f * g for f, g in zip(gaussian.features, g_features))
         rest = rest - share
         d = slope(rest, gaussian.alpha, w, share, settings)
         moments = [jnp.sum(d * powers[m][0] * powers[n][1]) for m, n in POWERS]
-        sums = [jnp.sum(w * g) for g in by_features]
+        sums = [jnp.sum(w * g) for g in g_features]
         derivatives = gradient_columns(gaussian.place, gaussian.root, gaussian.tilt, moments, sums, settings)
         row = functools.reduce(lambda row, jd: jnp.where(column == jd[0], jd[1], row), enumerate(derivatives), nothing)
-        plgpu.store(rows.at[walk.start + i, column], row, mask=column < len(derivatives))
+        plgpu.store(rows.at[tile_list.start + i, column], row, mask=column < len(derivatives))
         return t - w, rest
 
-    rest = sum((F_end[lane, j, :] * g for j, g in enumerate(by_features)), t_end[lane, :] * g_t[lane, :])
-    jax.lax.fori_loop(0, walk.count, step, (jnp.ones_like(u), rest))
+    rest = sum((F_end[lane, j, :] * g for j, g in enumerate(g_features)), t_end[lane, :] * g_t[lane, :])
+    jax.lax.fori_loop(0, tile_list.count, step, (jnp.ones_like(u), rest))
 
 
 def _sum_rows(rows, entries, start, count, sums):
@@ -171,7 +171,7 @@ def _sum_rows(rows, entries, start, count, sums):
     plgpu.store(sums.at[gaussian[:, None], column[None]], total, mask=there[:, None] & wide[None])
 
 
-class _Walk:
+class _TileList:
     """The list of one tile, and the places of its pixels from its centre."""
 
     def __init__(self, table, ids, tile, start, count, columns: int, settings: RasterSettings) -> None:

@@ -1,11 +1,11 @@
-"""Alpha compositing and its derivative as loops that XLA compiles for any device; composite.py holds the equations.
+"""Alpha compositing and its derivative as loops that XLA compiles for any device; compositing.py holds the equations.
 
-Tiers: a block of tiles advances together, a chunk of gaussians at a time, so the overhead of a loop iteration is paid once for
+Tiers: a block of tiles advances together, one chunk of gaussians per iteration, so the overhead of an iteration is paid once per
 block x tile^2 x chunk pairs.
 
 Layout: [pixels, gaussians of the chunk or features, lanes of the block]. The lanes fill the vectors, and what a pixel or a row of
-pixels needs stays in the first cache while the loops turn over gaussians and features. Alphas, and in the backward pass every
-stage, are compiled apart from their uses (_apart.py), which would otherwise each repeat them.
+pixels needs stays in the L1 cache while the loops run over gaussians and features. A fusion barrier (xla/fusion_barrier.py)
+follows the alphas, and in the backward pass every stage: otherwise XLA repeats them in each of their uses.
 """
 
 import functools
@@ -18,7 +18,7 @@ from wm.splat.rasterizer._axes import has_slope
 from wm.splat.rasterizer._pairs import DEPTH, GEOMETRY, Composite, alpha_at, gradient_columns, slope, weight
 from wm.splat.rasterizer._tile_sums import moments, moments_of_rows, offsets, products_of_rows, total
 from wm.splat.rasterizer.tiles import TilePlan
-from wm.splat.xla.fusion_barrier import apart
+from wm.splat.xla.fusion_barrier import fusion_barrier
 
 
 def forward(table, plan: TilePlan, *, columns: int, settings: RasterSettings) -> Composite:
@@ -52,14 +52,14 @@ def forward(table, plan: TilePlan, *, columns: int, settings: RasterSettings) ->
 
 
 def backward(table, plan: TilePlan, composite: Composite, cotangent: Composite, *, columns: int, settings: RasterSettings):
-    """The derivative by the table, from what `forward` returned and the derivative by it."""
+    """The cotangent of the table, from what `forward` returned and the cotangent of that."""
     weights, slopes = (functools.partial(stage, settings=settings) for stage in (_weights, _slopes))
 
     def block(gradient, lanes):
-        # lanes that end together walk together: the forward pass knows where each ends
+        # lanes that end together are in one block: the forward pass knows where each ends
         tile, start, count, t_final, F_final, g_t, g_F = (x[lanes].T for x in per_lane)
         origin = _origins(tile, columns, settings)
-        stage = functools.partial(apart, start[0] < 0)
+        stage = functools.partial(fusion_barrier, start[0] < 0)
 
         def step(state):
             i, t, rest, gradient = state
@@ -67,9 +67,9 @@ def backward(table, plan: TilePlan, composite: Composite, cotangent: Composite, 
             w, t = stage(weights, t, alpha)
             shares = stage(_shares, w, _features(g, origin, settings), g_F)
             d_ln_alpha, rest = stage(slopes, rest, alpha, w, shares)
-            by_place = stage(moments, stage(moments_of_rows, d_ln_alpha))
-            by_features = stage(total, stage(products_of_rows, w, g_F))
-            rows = _gradient_rows(g, origin, by_place, by_features, settings)
+            place_moments = stage(moments, stage(moments_of_rows, d_ln_alpha))
+            feature_sums = stage(total, stage(products_of_rows, w, g_F))
+            rows = _gradient_rows(g, origin, place_moments, feature_sums, settings)
             return i + settings.chunk, t, rest, gradient.at[entry].add(rows, mode="promise_in_bounds")
 
         rest = (F_final * g_F).sum(1) + t_final * g_t
@@ -128,11 +128,11 @@ def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
         return alpha_at(u - x, v - y, l0, l1, l2, log2_opacity, settings)
 
     log2_opacity = jnp.where(step < count, g[5], -jnp.inf)
-    return entry, g, apart(start[0] < 0, alphas, g[0] - origin[0], g[1] - origin[1], g[2], g[3], g[4], log2_opacity)
+    return entry, g, fusion_barrier(start[0] < 0, alphas, g[0] - origin[0], g[1] - origin[1], g[2], g[3], g[4], log2_opacity)
 
 
 def _features(g, origin, settings: RasterSettings):
-    """What is composited, [chunk, features, lanes]: the table's columns, depth as it is at the tile's centre."""
+    """The composited features, [chunk, features, lanes]: columns of the table, with the depth at the tile's centre."""
     features = g[GEOMETRY:]
     if has_slope(settings):
         color, depth, tilt = jnp.split(features, (DEPTH, DEPTH + 1))
@@ -140,8 +140,9 @@ def _features(g, origin, settings: RasterSettings):
     return jnp.swapaxes(features, 0, 1)
 
 
-def _gradient_rows(g, origin, by_place, by_features, settings: RasterSettings):
-    """Derivatives by every column of the table, [chunk, lanes, columns], from moments of dL/d ln alpha and sums of w g."""
+def _gradient_rows(g, origin, place_moments, feature_sums, settings: RasterSettings):
+    """Derivatives with respect to the columns of the table, [chunk, lanes, columns], from moments of dL/d ln alpha and sums of
+    w g."""
     place = (g[0] - origin[0], g[1] - origin[1])
-    by_place, by_features = ([x[:, j] for j in range(x.shape[1])] for x in (by_place, by_features))
-    return jnp.stack(gradient_columns(place, g[2:5], g[GEOMETRY + DEPTH + 1 :], by_place, by_features, settings), -1)
+    place_moments, feature_sums = ([x[:, j] for j in range(x.shape[1])] for x in (place_moments, feature_sums))
+    return jnp.stack(gradient_columns(place, g[2:5], g[GEOMETRY + DEPTH + 1 :], place_moments, feature_sums, settings), -1)

@@ -1,4 +1,4 @@
-"""Where a camera's pose takes points, to the last digits of float32 however far from the origin both of them are.
+"""Points in camera axes, accurate to the last digits of float32 however far camera and points are from the origin.
 
     p = R m + t = R (m - c) + (R c + t),    m + R^T t = (m - c) + (c + R^T t),    c near the camera's centre, held constant
 
@@ -11,7 +11,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from wm.splat.xla.fusion_barrier import apart
+from wm.splat.xla.fusion_barrier import fusion_barrier
 
 
 def to_camera(means: list, T: Float[Array, "4 4"]) -> list:
@@ -30,8 +30,8 @@ def from_centre(means: list, T: Float[Array, "4 4"]) -> list:
 
 
 def _near_centre(T):
-    # apart: every use must see the same digits, and computed twice, with and without fused multiplication, they are not
-    return apart(T[0, 0] == -jnp.inf, _centre, jax.lax.stop_gradient(T), everywhere=True)
+    # every use must see the same digits; without the barrier XLA computes them twice, with and without fused multiplication
+    return fusion_barrier(T[0, 0] == -jnp.inf, _centre, jax.lax.stop_gradient(T), everywhere=True)
 
 
 def _centre(T):
@@ -41,8 +41,8 @@ def _centre(T):
 @jax.custom_jvp
 def _exact_affine(A, x, b):
     """A x + b of [3, 3], [3] and [3], rounded once; its derivative is the plain one."""
-    # apart: XLA may fuse what is small into the loop over points, and do it again for each of them
-    return apart(A[0, 0] == -jnp.inf, _compensated, A, x, b, everywhere=True)
+    # without the barrier XLA may fuse this into the loop over points, and repeat it for each of them
+    return fusion_barrier(A[0, 0] == -jnp.inf, _compensated, A, x, b, everywhere=True)
 
 
 @_exact_affine.defjvp

@@ -18,7 +18,7 @@ from wm.types import Background, Camera, Gaussians, Render, record
 
 @record
 class Distance:
-    """The smallest relative distance of any value of a pixel from a threshold that it was compared with, [h, w]."""
+    """Per pixel, the smallest relative distance of any of its values from a threshold that it was compared with, [h, w]."""
 
     alpha: Any  # of an alpha from alpha_min or alpha_max
     transmittance: Any  # of a transmittance from transmittance_min

@@ -1,4 +1,4 @@
-"""Which tiles an ellipse meets: the arithmetic that the plans on the host and in the graph share, for NumPy and JAX alike.
+"""Tile binning of ellipses: the arithmetic that the plans on the host and in the graph share, for NumPy and JAX alike.
 
 A span is a first tile and how many from there. `xp` is the array module, numpy or jax.numpy.
 """
@@ -10,7 +10,7 @@ from wm.schema import RasterSettings
 
 SLACK, RELATIVE_SLACK = 1e-3, 1e-6
 """Ellipses are widened by this many pixels, and by this share of their size and distance from the origin, so that rounding
-never leaves out an entry that the compositing would count."""
+never drops an entry whose alpha is not 0."""
 
 
 def slack(centre, half: Any, xp: ModuleType):

@@ -1,23 +1,24 @@
 """Alpha compositing over tiles, front to back, and its derivative.
 
-Logarithms are binary, since powers of two are cheap: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 with the l of project.py times
-sqrt(log2(e) / 2), so that 2^-q is the gaussian. The derivatives below are by natural ones; d log2 x = log2(e) d ln x.
+Logarithms are binary, since powers of two are cheap: q = (l0 dx + l1 dy)^2 + (l2 dy)^2 with the l of projection.py times
+sqrt(log2(e) / 2), so that 2^-q is the gaussian. The derivatives below are with respect to natural logarithms;
+d log2 x = log2(e) d ln x.
 
 Per pixel, over its tile's list: alpha = 2^min(log2 o - q, log2 alpha_max), dropped below alpha_min; w_i = T_i alpha_i,
 T_{i+1} = T_i - w_i; features F = sum w_i f_i: colour, and depth z_i + s_i . d, which is linear in the pixel's place (u, v) in its
-tile and so three features, z_i + s_i . (centre of the tile - mean_i) and s_i, put together once a pixel. A pixel is finished once
+tile and so three features, z_i + s_i . (centre of the tile - mean_i) and s_i, combined once per pixel. A pixel is finished once
 T < transmittance_min: the gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls
 in changes nothing.
 
 Backward, with g = dL/dF and g_T = dL/dT_final: the part of the loss still to come
-S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so it is walked front to back again and
+S_i = g . F + g_T T_final - sum_{j<=i} w_j g . f_j falls along the list, so the backward pass traverses it front to back again and
 
     dL/d ln alpha_i = w_i g . f_i - S_i alpha_i / (1 - alpha_i)   (0 where alpha is clamped or cut),
     dL/d log2 o_i = ln 2 dL/d ln alpha_i = -dL/dq_i,   dL/d f_i = w_i g,   each summed over pixels.
 
 Sums over a tile's pixels are taken with 1, u, v, u^2, uv, v^2, (u, v) from the tile's centre, along its rows and then down; the
-derivatives by mean and root follow from those six moments. The arithmetic is in _pairs.py; the lists are walked by _loops.py on
-any device, by _kernels.py on NVIDIA GPUs.
+derivatives with respect to mean and root follow from those six moments. The arithmetic is in _pairs.py; the loop over a list is
+in _loops.py for any device and in _kernels.py for NVIDIA GPUs.
 """
 
 import functools
@@ -58,7 +59,7 @@ def rasterize(
         width, height: of the image, pixels.
         settings: alpha_min, alpha_max, transmittance_min, tile, chunk, depth, slanted and compositor are read here.
         background: colour behind everything; None is black.
-        frozen: more gaussians, after those of `projected` in the plan's numbering; no derivative by them.
+        frozen: more gaussians, after those of `projected` in the plan's numbering; not differentiated.
 
     Returns:
         The image, float32 even where float64 is enabled. With `settings.depth` False its depth is 0 everywhere and costs nothing.
@@ -84,7 +85,7 @@ def rasterize(
 
 
 def _check_plan(plan: TilePlan, wanted: Planned) -> None:
-    """Raises unless a plan is of this image: the walk looks at no bound."""
+    """Raises unless a plan is of this image: compositing checks no bounds."""
     wrong = [f"{name} is {a}, not {b}" for name, a, b in zip(Planned._fields, plan.of, wanted) if a != b]
     if wrong:
         raise ValueError(f"the plan is of another image: its {', its '.join(wrong)}; one of this projection would be right")
@@ -92,7 +93,7 @@ def _check_plan(plan: TilePlan, wanted: Planned) -> None:
 
 @functools.partial(jax.custom_vjp, nondiff_argnums=(2,))
 def _table(projected: Projected, frozen: Projected | None, settings: RasterSettings) -> Float[Array, "rows columns"]:
-    """One row a gaussian, and a last row of zero opacity at which the padding of a plan points. No derivative by `frozen`."""
+    """One row per gaussian, and a last row of zero opacity at which the padding of a plan points. `frozen` has no derivative."""
     parts = [part for part in (projected, frozen) if part is not None]
     starts = np.cumsum([0, *(part.opacity.shape[0] for part in parts)])
     width = GEOMETRY + 3 + settings.depth + 2 * has_slope(settings)
@@ -125,10 +126,10 @@ def _table_fwd(projected: Projected, frozen: Projected | None, settings: RasterS
 
 
 def _table_bwd(settings: RasterSettings, projected: Projected, cotangent):
-    def pull(projected: Projected, cotangent) -> Projected:
+    def vjp(projected: Projected, cotangent) -> Projected:
         return jax.vjp(functools.partial(_rows, settings=settings), projected)[1](cotangent)[0]
 
-    return in_blocks(pull, _any_visible, [projected, cotangent], [-1, 0], out_axis=-1), None
+    return in_blocks(vjp, _any_visible, [projected, cotangent], [-1, 0], out_axis=-1), None
 
 
 _table.defvjp(_table_fwd, _table_bwd)
@@ -149,7 +150,7 @@ def _image(lanes: Float[Array, "lanes pixels"], plan: TilePlan, width: int, heig
 
 
 def _forward(table, plan: TilePlan, columns: int, settings: RasterSettings) -> Composite:
-    return _walked("forward", (table, plan), columns, settings)
+    return _run_compositor("forward", (table, plan), columns, settings)
 
 
 _composite = jax.custom_vjp(_forward, nondiff_argnums=(2, 3))
@@ -161,16 +162,16 @@ def _composite_fwd(table, plan: TilePlan, columns: int, settings: RasterSettings
 
 
 def _composite_bwd(columns: int, settings: RasterSettings, residuals, cotangent: Composite):
-    return _walked("backward", (*residuals, cotangent), columns, settings), None
+    return _run_compositor("backward", (*residuals, cotangent), columns, settings), None
 
 
 _composite.defvjp(_composite_fwd, _composite_bwd)
 
 
-def _walked(way: str, arguments: tuple, columns: int, settings: RasterSettings):
-    """The walk over the lists, forward or backward, by what the settings name.
+def _run_compositor(way: str, arguments: tuple, columns: int, settings: RasterSettings):
+    """The forward or backward pass over the lists, by the compositor that the settings name.
 
-    "auto" is kernels on an NVIDIA GPU, loops on any other device, where JAX has no GPU, and for tiles that do not suit kernels.
+    "auto" is kernels on an NVIDIA GPU, and loops on other devices, where JAX has no GPU, and for tiles that do not suit kernels.
     """
     loops = functools.partial(getattr(_loops, way), columns=columns, settings=settings)
     suits = settings.tile.bit_count() == 1 and jax.default_backend() == "gpu"

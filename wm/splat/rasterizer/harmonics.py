@@ -14,7 +14,7 @@ def harmonics(direction: Float[Array, "3 n"] | None, degree: int) -> list:
         degree: 0 to 3.
 
     Returns:
-        One entry a basis function: the constant, then arrays [n].
+        One entry per basis function: the constant, then arrays [n].
 
     Source: Sloan, "Efficient Spherical Harmonic Evaluation" (2013), with the Condon-Shortley signs used by Kerbl et al. (2023).
     Constants are sqrt(1 / 4 pi), sqrt(3 / 4 pi), ... to float64 digits.

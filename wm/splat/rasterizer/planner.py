@@ -1,4 +1,4 @@
-"""Where the tiles of a view are planned: on the host (tiles.py) or in the graph (tiles_traced.py), inside jit or outside.
+"""The choice of a planner for tile binning: on the host (tiles.py) or in the graph (tiles_traced.py), inside jit or outside.
 
 Outside jit the plan is made between two compiled passes, where the arrays are: on the host for a CPU, on the device for an
 accelerator, after a first pass that counts. Inside, where shapes are fixed before a view is known, a plan has room for a fixed
@@ -19,7 +19,8 @@ from wm.splat.rasterizer.tiles import Planned, TilePlan, plan_tiles
 from wm.splat.rasterizer.tiles_traced import plan_tiles_on_device, plan_tiles_traced
 
 TRACED_PER_GAUSSIAN, TRACED_PER_TILE = 16, 512
-"""Entries that a plan made under jit has room for; shapes are fixed there before anything is known about the view."""
+"""Capacity of a plan made under jit, entries per gaussian and per tile; shapes are fixed before anything is known about the
+view."""
 
 
 def plan_outside_jit(
@@ -84,8 +85,8 @@ def _plan_in_graph(projected: Projected, width: int, height: int, settings: Rast
             functools.partial(_refuse, capacity=capacity), jax.ShapeDtypeStruct((), np.int32), needed, vmap_method="sequential"
         )
 
-    # The host hears of it only when there is no room, so that no device waits for it and several devices do not deadlock. (Under
-    # vmap a branch becomes a selection: then it hears of every view.)
+    # The host is called only when the capacity does not suffice, so that no device waits for it and several devices do not
+    # deadlock. (Under vmap a branch becomes a selection: then it is called for every view.)
     nothing = jax.lax.cond(traced.needed > capacity, complain, jnp.zeros_like, traced.needed)
     return dataclasses.replace(traced.plan, ids=traced.plan.ids + nothing)
 

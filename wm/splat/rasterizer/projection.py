@@ -27,7 +27,7 @@ from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
 from wm.splat.rasterizer._axes import clamped, compensation, cross, depth_slope, dot, has_slope, rotations
 from wm.splat.rasterizer._pose import from_centre, to_camera
-from wm.splat.rasterizer._pullback import pull_ellipses
+from wm.splat.rasterizer._vjp import ellipses_vjp
 from wm.splat.rasterizer.checks import DEGREES, check_types
 from wm.splat.rasterizer.harmonics import harmonics
 from wm.splat.xla.blocks import in_blocks
@@ -49,7 +49,7 @@ class Projected:
     opacity: Any  # [n] o, compensated with `antialias`
     color: Any  # [3, n] sRGB-encoded, seen from this camera
     depth: Any  # [n] z-depth of the centre, metres
-    slope: Any  # [2, n] by how much depth grows a pixel to the right and down, metres; 0 unless `depth` and `slanted`
+    slope: Any  # [2, n] growth of depth per pixel to the right and down, metres; 0 unless `depth` and `slanted`
     extent: Any  # [2, n] half width and half height of the ellipse where alpha falls to `alpha_min`, px; no gradient
 
 
@@ -101,41 +101,41 @@ def _project_fwd(gaussians: Gaussians, camera: Camera, settings: RasterSettings)
 def _project_bwd(settings: RasterSettings, residuals, cotangent: Projected):
     gaussians, camera, projected = residuals
     visible = projected.opacity > 0
-    # by the camera there are few numbers and many sums: the plain derivative, compiled only where somebody asks for it
+    # with respect to the camera: JAX's derivative, sums over all gaussians; compiled only where a caller asks for it
     rows, masked = _visible_rows(gaussians, visible, cotangent)
-    _, pull_camera = jax.vjp(lambda camera: _ellipses(rows, camera, settings, visible)[0], camera)
-    return pull_gaussians(gaussians, camera, projected, cotangent, settings), pull_camera(masked)[0]
+    _, camera_vjp = jax.vjp(lambda camera: _ellipses(rows, camera, settings, visible)[0], camera)
+    return project_vjp(gaussians, camera, projected, cotangent, settings), camera_vjp(masked)[0]
 
 
-def pull_gaussians(
+def project_vjp(
     gaussians: Gaussians, camera: Camera, projected: Projected, cotangent: Projected, settings: RasterSettings = DEFAULTS
 ) -> Gaussians:
-    """The derivative of `project` by the gaussians where its result is at hand, which `jax.vjp` would compute once more.
+    """The vector-Jacobian product of `project` with respect to the gaussians, given its result (`jax.vjp` computes it again).
 
     Args:
         gaussians, camera, settings: what `project` was called with; float32 arrays.
         projected: what it returned.
-        cotangent: by its leaves; that of the extent is ignored.
+        cotangent: of its leaves; that of the extent is ignored.
     """
 
-    def pull(gaussians: Gaussians, visible, cotangent: Projected) -> Gaussians:
+    def vjp(gaussians: Gaussians, visible, cotangent: Projected) -> Gaussians:
         rows, masked = _visible_rows(gaussians, visible, cotangent)
         means, quats, log_scales, opacity_logits, sh = rows
-        by_means, by_quats, by_scales, by_logits = pull_ellipses(
+        g_means, g_quats, g_scales, g_logits = ellipses_vjp(
             means, quats, log_scales, opacity_logits, camera, settings, visible, masked
         )
-        _, pull_colors = jax.vjp(lambda sh, means: _colors(sh, means, camera.T_cam_world), sh, means)
-        by_sh, by_direction = pull_colors(masked.color)
+        _, colors_vjp = jax.vjp(lambda sh, means: _colors(sh, means, camera.T_cam_world), sh, means)
+        g_sh, g_direction = colors_vjp(masked.color)
         return Gaussians(
-            means=jnp.stack([shift + turn for shift, turn in zip(by_means, by_direction)], 1),
-            quats=jnp.stack(by_quats, 1),
-            log_scales=jnp.stack(by_scales, 1),
-            opacity_logits=by_logits,
-            sh=jnp.stack([band.T for band in by_sh], 1),
+            means=jnp.stack([shift + turn for shift, turn in zip(g_means, g_direction)], 1),
+            quats=jnp.stack(g_quats, 1),
+            log_scales=jnp.stack(g_scales, 1),
+            opacity_logits=g_logits,
+            sh=jnp.stack([band.T for band in g_sh], 1),
         )
 
     parts = [gaussians, projected.opacity > 0, cotangent]
-    return in_blocks(pull, lambda _, visible, __: visible.any(), parts, [0, 0, -1], out_axis=0)
+    return in_blocks(vjp, lambda _, visible, __: visible.any(), parts, [0, 0, -1], out_axis=0)
 
 
 def _visible_rows(gaussians: Gaussians, visible, cotangent: Projected):

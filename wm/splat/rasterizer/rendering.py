@@ -36,13 +36,13 @@ def render(
         images = shard(jax.vmap(see, (None, 0, 0)))(gaussians, cameras, plans)
 
     `shard` is jit of shard_map with `check_vma=False`, since loops here start from constants. On a CPU with AVX-512 a jit of the
-    caller's gains a fifth from `compiler_options=wm.splat.WIDE`; called on its own, this function takes them by itself.
+    caller's gains a fifth from `compiler_options=wm.splat.WIDE`; called outside jit, this function sets them itself.
 
     Args:
         gaussians: n gaussians in world space; n may be 0. Unless `checked`, one that is not finite is left out, but for an
             opacity logit of +inf, which is that of opacity 1.
         camera: where they are seen from; any image size from 1 x 1.
-        background: colour behind everything, one or one a pixel; None is black.
+        background: colour behind everything, one colour or one per pixel; None is black.
         settings: the constants of the rasterizer, static under jit.
         checked: refuse whatever is not finite; inside jit by `jax.experimental.checkify`, which the caller then applies:
             `error, image = checkify.checkify(jax.jit(lambda g: render(g, camera, checked=True)))(gaussians); error.throw()`.
@@ -53,7 +53,8 @@ def render(
     Raises:
         TypeError: an array does not hold floating-point numbers.
         ValueError: a shape is wrong, or the camera is not finite where its numbers are there to be seen. Under tracing, when a
-            view has more entries than a traced plan has room for (XLA may wrap it). Nothing is ever left out of the image.
+            view has more entries than a traced plan has room for (XLA may wrap it). No gaussian is ever silently left out of the
+            image.
     """
     check_types(gaussians, camera, settings)
     if background is not None:

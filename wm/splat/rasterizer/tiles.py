@@ -1,4 +1,4 @@
-"""Which gaussians touch which tiles, front to back: planned on the host, in NumPy, once per view (in the graph: tiles_traced.py).
+"""Tile binning: the gaussians of every tile, front to back, on the host in NumPy, once per view (in the graph: tiles_traced.py).
 
 Tiers of work: per gaussian (bounds, depth sort), per (gaussian, row of tiles) (the span of the ellipse in that row), per entry
 (gaussian, tile) (one counting sort by tile). An entry is listed only if the ellipse alpha = alpha_min meets the rows of pixel
@@ -24,11 +24,11 @@ GROWTH, BASE = 1.5, 4096
 """Capacities are BASE * GROWTH^k: padded sizes that differ give few distinct shapes, hence few compilations."""
 
 STRIP = 1 << 14
-"""Rows of tiles worked on at a time: temporaries that stay in the cache, and below the size that the allocator maps anew."""
+"""(gaussian, row of tiles) pairs per strip: temporaries then stay in the cache, below the size that the allocator maps anew."""
 
 
 class Planned(NamedTuple):
-    """What a plan is of."""
+    """The image size, tile size and number of gaussians that a plan was made for."""
 
     width: int  # of the image, pixels
     height: int
@@ -43,7 +43,7 @@ class Planned(NamedTuple):
 @jax.tree_util.register_dataclass
 @dataclasses.dataclass(frozen=True, eq=False)
 class TilePlan:
-    """The entries of every tile; plain arrays, so that a plan is an argument of a jitted function; what it is of is static.
+    """The entries of every tile, as plain arrays, so that a plan is an argument of a jitted function; only `of` is static.
 
     Tiles are taken in blocks; a lane is the place of one tile in its block.
     """
@@ -66,7 +66,7 @@ def plan_tiles(
         width, height: of the image, pixels.
         settings: tile, block and alpha_min are read here.
         capacity: how many entries to make room for at least; None makes room for what there is, rounded up in steps of x1.5.
-            Whatever does not fit makes it grow: nothing is ever left out.
+            It grows if that does not suffice: no entry is ever dropped.
 
     Returns:
         The plan, NumPy arrays.
@@ -113,7 +113,7 @@ def plan_views(projected: Projected, width: int, height: int, settings: RasterSe
 
 
 def padded_capacity(entries: int, wanted: int | None) -> int:
-    """Room for so many entries: what is wanted (None: BASE), grown in steps of x1.5 while it does not suffice."""
+    """The capacity for a number of entries: what is wanted (None: BASE), times 1.5 until it suffices."""
     size = BASE if wanted is None else max(wanted, 1)
     while size < entries:
         size = math.ceil(size * GROWTH)

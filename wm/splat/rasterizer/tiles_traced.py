@@ -1,4 +1,4 @@
-"""The plan of tiles.py inside the graph, for accelerators and for several devices: no callback, fixed sizes.
+"""Tile binning inside the graph, for accelerators and for several devices: no callback, fixed sizes.
 
 Gaussians are sorted by depth, the bounding box of each is unrolled into (gaussian, tile) entries, those that miss the ellipse are
 dropped, and a stable sort by tile leaves every tile's list front to back. The lists are those of the host's plan; room is needed
@@ -41,7 +41,7 @@ def plan_tiles_traced(
         capacity: how many entries of gaussians' boxes there is room for, at least 1; static.
 
     Returns:
-        The plan and the room it needed. A plan that needed more than there was leaves gaussians out: it is for the caller to
+        The plan and the room it needed. A plan that needed more than there was leaves gaussians out; the caller must
         refuse it, as `render` does.
     """
     projected = jax.tree.map(lambda x: jax.lax.stop_gradient(jnp.asarray(x, jnp.float32)), projected)

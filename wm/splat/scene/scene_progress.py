@@ -1,4 +1,4 @@
-"""How far the fit of a scene is: told to whoever watches, and kept so that nothing is lost. Rooms call from their own threads."""
+"""Progress and checkpoints of the fit of a scene. Both are called from several threads, one per room under way."""
 
 import dataclasses
 import threading
@@ -17,11 +17,11 @@ Store = Callable[[int, int, Arrays], None]
 
 
 class Halted(Exception):
-    """Raised in the rooms under way when the fit of the scene is interrupted."""
+    """Raised in the fits of rooms under way after the fit of the scene was interrupted."""
 
 
 class SceneProgress:
-    """Steps done over all rooms, told to `progress` one call at a time."""
+    """Counts the steps of all rooms and calls `progress`, one call at a time."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
         self._done, self._total, self._progress, self._lock = 0, total, progress, threading.Lock()
@@ -33,16 +33,20 @@ class SceneProgress:
         Raises: Halted after `halt`.
         """
         self._add(1, info)
-        if self._halted:
-            raise Halted
+        self.raise_if_halted()
 
     def skip(self, steps: int) -> None:
-        """Steps that need not be taken."""
+        """Counts steps that are not taken, or not reported one by one."""
         self._add(steps, {})
 
     def halt(self) -> None:
-        """From now on every room ends at its next step."""
+        """Makes every room end at its next step."""
         self._halted = True
+
+    def raise_if_halted(self) -> None:
+        """Raises: Halted after `halt`."""
+        if self._halted:
+            raise Halted
 
     def _add(self, steps: int, info: dict) -> None:
         with self._lock:
@@ -53,14 +57,14 @@ class SceneProgress:
 
 @dataclasses.dataclass(frozen=True)
 class Checkpoints:
-    """Where the states of rooms are kept, and how often."""
+    """How the states of rooms are stored and loaded, and how often."""
 
     load: Load
     store: Store
     seconds: float
 
     def keeper(self, round_: int, room: int) -> Callable[[Callable[[], RoomState]], None]:
-        """What to call after every step of a room with what gives its state: stores it when it is time."""
+        """A function to call after every step of a room with one that returns its state, which is stored once per `seconds`."""
         last = time.perf_counter()
 
         def keep(state: Callable[[], RoomState]) -> None:

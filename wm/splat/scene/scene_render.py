@@ -14,13 +14,14 @@ from wm.splat.optimization.step import project_view, rasterize_view
 from wm.types import Camera, Gaussians, Render
 
 _COLUMNS = 2.0
-"""Room for growth in the padded number of visible gaussians, so that most views share one compiled pass."""
+"""Factor by which the padded number of visible gaussians exceeds the need when it grows, so that most views share a compiled
+pass."""
 
 
 class SceneRenderer:
-    """Renders views of many rooms, from any number of threads.
+    """Renders views of many rooms; may be called from several threads.
 
-    Padded sizes only grow, so a walk through a scene compiles a handful of times.
+    Padded sizes only grow, so the views of a camera path through a scene compile a handful of times.
     """
 
     def __init__(
@@ -31,12 +32,12 @@ class SceneRenderer:
         capacity: Capacity | None = None,
         device: Device | None = None,
     ) -> None:
-        """What renders, ready.
+        """A renderer of rooms.
 
         Args:
           rooms: the gaussians of each room, on the host.
           raster: the rasterizer's constants.
-          capacity: of the fit that they come from: images of its size are then rendered by what it compiled.
+          capacity: of the fit that made the gaussians: images of its size then reuse what was compiled for it.
           device: the jax.Device that renders, JAX's default if None.
         """
         largest = max((len(room.opacity_logits) for room in rooms), default=0)

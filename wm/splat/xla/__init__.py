@@ -1,6 +1,6 @@
-"""What XLA needs to be told so that the rasterizer is fast and its bytes do not depend on how operations are fused.
+"""What makes XLA's code fast and its bytes independent of how XLA fuses operations.
 
-    fusion_barrier  keeps XLA from fusing across a border
-    vector_width    512-bit vectors where the CPU has them
-    blocks          elementwise arithmetic in blocks that stay in the cache
+    fusion_barrier  fusion_barrier: a function call across whose border XLA does not fuse
+    vector_width    WIDE, jit_wide: 512-bit vectors on CPUs that have them
+    blocks          in_blocks: elementwise arithmetic in blocks that stay in the cache
 """

@@ -1,5 +1,5 @@
-"""Arithmetic that takes each gaussian alone, a block of them at a time: on a CPU its temporaries then stay in the cache, and
-blocks in which no gaussian is seen cost nothing."""
+"""Elementwise arithmetic over gaussians, one block of them per iteration: on a CPU its temporaries then stay in the cache, and
+blocks without a visible gaussian cost nothing."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -9,23 +9,23 @@ import jax
 import jax.numpy as jnp
 
 BLOCK = 2048
-"""Gaussians in a block: a row of them is 8 KiB, and some hundred rows are at work at once."""
+"""Gaussians per block: a row of them is 8 KiB, and some hundred rows are in use at once."""
 
 
 def in_blocks(
     f: Callable, alive: Callable, args: Sequence[Any], axes: Sequence[int], *, out_axis: int, into: Any = None, at: int = 0
 ) -> Any:
-    """f(*args), block by block on a CPU, at once elsewhere. Same bytes wherever there is something to do.
+    """f(*args), block by block on a CPU, in one call elsewhere. Same bytes in every block that is alive.
 
     Args:
-        f: what is done; its results for a gaussian depend on that gaussian alone.
-        alive: with the same arguments: whether there is anything to do for a block. If not, a CPU leaves its results as they were
-            and elsewhere they are those of f: nobody may read a difference.
-        args: trees of arrays with gaussians along one axis; the first has n of them, the others may have more: not read.
-        axes: that axis of each of them, 0 or -1.
-        out_axis: the same of the results.
-        into: what the results are written into; None is zeros for n gaussians.
-        at: the place there of the first of them.
+        f: a function of `args`, whose results for a gaussian depend on that gaussian alone.
+        alive: a function of the same arguments: whether f has to be computed for a block. If not, a CPU leaves the results of the
+            block as they were, and other devices compute f: callers must not depend on the difference.
+        args: trees of arrays with gaussians along one axis; the first has n of them; of the others only the first n are read.
+        axes: that axis in each of them, 0 or -1.
+        out_axis: the axis of gaussians in the results, 0 or -1.
+        into: the arrays into which the results are written; None: zeros for n gaussians.
+        at: the index there of the first gaussian.
     """
     n = jax.tree.leaves(args[0])[0].shape[axes[0]]
 

@@ -1,4 +1,4 @@
-"""A way to keep XLA from fusing across a border."""
+"""`fusion_barrier`: a function call across whose border XLA does not fuse."""
 
 from collections.abc import Callable
 from typing import Any
@@ -8,17 +8,18 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool
 
 
-def apart(never: Bool[Array, ""], f: Callable, *args: Any, everywhere: bool = False) -> Any:
-    """f(*args), compiled apart from what surrounds it on a CPU.
+def fusion_barrier(never: Bool[Array, ""], f: Callable, *args: Any, everywhere: bool = False) -> Any:
+    """f(*args), with a barrier between its operations and all others, through which XLA on a CPU fuses nothing.
 
-    XLA fuses cheap operations into each of their uses and repeats them there, so on a CPU a chain of them with many results costs
-    their product. It drops optimisation barriers before it fuses for a CPU; a branch that it cannot see through is a border that
-    holds. For a GPU it is the other way round: there code moves into branches, for whose conditions the host waits besides.
+    XLA fuses cheap operations into each of their uses and repeats them there, so on a CPU the cost of a chain of operations, each
+    used several times, is a product. XLA drops `jax.lax.optimization_barrier` before it fuses for a CPU, but does not fuse into
+    or out of a conditional branch whose condition it cannot fold. On a GPU it is the other way round: XLA moves code into
+    branches, and the host waits for their conditions.
 
     Args:
-        never: a condition that never holds, which XLA does not know; where it holds the result is zeros.
+        never: a condition that never holds, but that XLA cannot fold; if it held, the result would be zeros.
         f: a function of arrays.
-        everywhere: keep a border on every device, for results of which every use must see the same digits.
+        everywhere: put a barrier on every device, for results of which every use must see the same digits.
     """
     if jax.default_backend() == "cpu":
         return _branch(never, f, *args)

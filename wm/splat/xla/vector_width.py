@@ -1,4 +1,4 @@
-"""Vectors of 512 bits, where the CPU has them: XLA on its own stops at 256."""
+"""Compiler options for vectors of 512 bits on CPUs that have them; by default XLA uses at most 256."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -9,12 +9,12 @@ import jax.numpy as jnp
 from jax.core import Tracer
 
 WIDE = {"xla_cpu_prefer_vector_width": "512"}
-"""Compiler options for `jax.jit` of anything that rasterizes on a CPU; JAX takes them only where nothing is jitted around.
-They are a preference: LLVM takes what the processor has, and compilers of other devices do not read it."""
+"""Compiler options for `jax.jit` of anything that rasterizes on a CPU; JAX accepts them at the outermost jit only. They are a
+preference: LLVM uses what the processor has, and compilers for other devices ignore it."""
 
 
 def jit_wide(f: Callable, static_argnames: Sequence[str]) -> Callable:
-    """`jax.jit(f)`, with WIDE where the call is compiled on its own; inside a caller's jit, grad or vmap the caller chooses."""
+    """`jax.jit(f)`, with WIDE where this is the outermost jit; inside a caller's jit, grad or vmap the caller's options hold."""
     inside = jax.jit(f, static_argnames=static_argnames)
     alone = jax.jit(f, static_argnames=static_argnames, compiler_options=WIDE)
 

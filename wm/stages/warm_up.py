@@ -1,15 +1,15 @@
-"""Rehearsal: what the fit is going to run is compiled while the views are painted.
+"""Warm-up: the functions that the fit is going to run are compiled while the views are painted.
 
-Compiling a step of the fit takes as long as fifty of them, and painting, which is NumPy for the most part, leaves half a core
-idle. So one step is taken ahead, in a thread: that of the room with the most gaussians, since all rooms are padded to it,
-from its true initial cloud (which the scaffold alone decides, but for the colours) toward a black image. Nothing of it is kept
-but the compiled functions and the capacity of plans they are compiled for, so a wrong guess of the room costs time only. Where
-rooms are fitted by processes of their own, it is they who compile.
+Compiling a step of the fit takes as long as fifty steps, and painting, which is NumPy for the most part, leaves half a core idle.
+So one step is taken in advance, in a thread: for the room with the most gaussians, since all rooms are padded to its size, from
+its true initial cloud (which depends on the scaffold alone, but for the colours) toward a black image. Only the compiled
+functions and the capacity of plans that they are compiled for are kept, so a wrong guess of the room costs time and changes no
+result.
 """
 
 import dataclasses
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 
@@ -20,10 +20,9 @@ from wm.geometry import cast
 from wm.geometry.mesh.scene_mesh import face_crosses
 from wm.host import cores
 from wm.schema import FitSettings, RunConfig
+from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
-from wm.splat.scene.room_worker import RoomWorker, WorkerClosed
 from wm.splat.scene.scene_fit import fit_scene
-from wm.stages.fitters import Fitters
 from wm.stages.job import Job
 from wm.stages.reconstruction import training_view
 from wm.stages.scene import Scene
@@ -35,53 +34,43 @@ CONTENDERS = 0.8
 
 
 @contextmanager
-def rehearsed(job: Job, scene: Scene, fitters: Fitters, *, needed: bool) -> Iterator[None]:
-    """The rehearsal goes on beside the block if it is needed and there is a core for it."""
+def warming_up(job: Job, scene: Scene, capacity: Capacity, *, needed: bool) -> Iterator[None]:
+    """The warm-up runs in a thread beside the block if it is needed and there is a second core."""
     if not needed or cores() == 1 or not scene.views:
         yield
         return
-    pool = ThreadPoolExecutor(1, thread_name_prefix="wm-rehearsal")
+    pool = ThreadPoolExecutor(1, thread_name_prefix="wm-warm-up")
     try:
-        pool.submit(rehearse, job, scene, fitters).add_done_callback(_tell)
+        pool.submit(warm_up, job, scene, capacity).add_done_callback(_tell)
         yield
     finally:
         pool.shutdown(wait=False)  # a fit of the same shapes waits for the compilation, nobody else needs to
 
 
-def rehearse(job: Job, scene: Scene, fitters: Fitters) -> None:
-    """One step of the room with the most gaussians, and one held-out render; raises the capacity to what they need.
-
-    With workers only the render is made here, for the evaluation, and step and render by each of them in turn: what the first
-    has compiled the others find.
-    """
+def warm_up(job: Job, scene: Scene, capacity: Capacity) -> None:
+    """One step of the room with the most gaussians, and one held-out render; raises the capacity to what they need."""
     settings = job.config.fit
     clouds = {room: _cloud(scene, room, job.config) for room in contenders(scene, settings)}
     room = max(clouds, key=lambda room: len(clouds[room].opacity_logits))
     nothing = jax.tree.map(lambda x: x[:0], clouds[room])
     first = next(_blank_views(scene, room))
-
-    def fit(steps: int, workers: Sequence[RoomWorker] = ()) -> None:
-        fit_scene(
-            [clouds[room] if k == room else nothing for k in range(len(scene.rooms))],
-            lambda k: [first] if k == room else [],
-            settings=dataclasses.replace(settings, steps=steps, rounds=1, curve_points=1, batch=1, refine_every=0),
-            raster=job.config.raster,
-            key=jax.random.key(0),
-            heldout=lambda k: [first],
-            capacity=fitters.capacity,
-            devices=jax.devices()[:1],
-            workers=workers,
-        )
-
-    fit(0 if fitters.workers else 1)
-    for worker in fitters.workers:
-        fit(1, [worker])
+    fit_scene(
+        [clouds[room] if k == room else nothing for k in range(len(scene.rooms))],
+        lambda k: [first] if k == room else [],
+        settings=dataclasses.replace(settings, steps=1, rounds=1, curve_points=1, batch=1, refine_every=0),
+        raster=job.config.raster,
+        key=jax.random.key(0),
+        heldout=lambda k: [first],
+        capacity=capacity,
+        devices=jax.devices()[:1],
+        workers=1,
+    )
 
 
-def _tell(rehearsal: Future) -> None:
-    error = rehearsal.exception()
-    if error is not None and not isinstance(error, WorkerClosed):  # closed: the run has ended before the rehearsal
-        print(f"rehearsal of the fit: {type(error).__name__}: {error}; the fit compiles for itself", file=sys.stderr)
+def _tell(warmed: Future) -> None:
+    error = warmed.exception()
+    if error is not None:
+        print(f"warm-up of the fit: {type(error).__name__}: {error}; the fit compiles for itself", file=sys.stderr)
 
 
 def contenders(scene: Scene, settings: FitSettings) -> list[int]:
