@@ -10,20 +10,23 @@ import json
 import pathlib
 from collections.abc import Sequence
 
+from tabulate import tabulate
+
 from wm.artifacts import identity, json_text, open_run_folder, write_atomically
 from wm.geometry import load_plan
 from wm.host import prepare_process
 from wm.meter import StageMeter
+from wm.metric_table import METRICS
 from wm.neighbours import Neighbours
 from wm.schema import RunConfig
-from wm.stages.evaluation import METRICS, evaluate
+from wm.stages.evaluation import evaluate
 from wm.stages.fitters import fitters
 from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.job import TIMINGS, Job, versions
 from wm.stages.painting import Painted, is_painted, paint
 from wm.stages.reconstruction import HISTORY, reconstruct
 from wm.stages.rehearsal import rehearsed
-from wm.stages.reporting import REPORT, report
+from wm.stages.reporting import METRICS_FILE, REPORT, report
 from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.synth.backends import close_backend, make_backend
 
@@ -105,15 +108,15 @@ def _timings(folder: pathlib.Path) -> dict:
 
 
 def _summary(folder: pathlib.Path, job: Job, metrics: dict) -> str:
-    rows = [f"  {name:<12}{row['seconds']:9.1f} s {row['peak_gib']:7.2f} GiB" for name, row in job.meter.stages.items()]
-    figures = (("psnr", "PSNR", "{:.2f} dB"), ("m_mae", "M-MAE", "{:.4f} m"), ("n_ang_deg", "N-Ang", "{:.1f} deg"))
-    held_out = ", ".join(f"{label} {form.format(metrics[key])}" for key, label, form in figures if metrics.get(key) is not None)
-    where = folder / REPORT if job.config.report.enabled else folder / METRICS
+    stages = {**job.meter.stages, "in all": metrics}
+    rows = [(name, *(METRICS[key].text(row[key]) for key in ("seconds", "peak_gib"))) for name, row in stages.items()]
+    measured = (METRICS[key] for key in ("psnr", "m_mae", "n_ang_deg") if metrics[key] is not None)
+    held_out = ", ".join(f"{metric.label} {metric.text(metrics[metric.key])}" for metric in measured)
+    where = folder / REPORT if job.config.report.enabled else folder / METRICS_FILE
     return "\n".join(
         [
             f"\n{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
-            *rows,
-            f"  {'in all':<12}{metrics['seconds']:9.1f} s {metrics['peak_gib']:7.2f} GiB",
+            tabulate(rows, tablefmt="plain", colalign=("left", "right", "right"), disable_numparse=True),
             f"held-out: {held_out}" if held_out else "held-out: nothing to compare with",
             f"results: {where}",
         ]

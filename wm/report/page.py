@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from wm.geometry import FloorPlan
+from wm.metric_table import METRICS, Metric
 from wm.report.floorplan import camera_legend, draw_floorplan
 from wm.report.paper import paper_figure
 from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image
@@ -53,30 +54,6 @@ class ReportData:
     video: bytes | None
 
 
-_ROWS = [
-    ("psnr", "PSNR", "{:.2f} dB", "held-out views against the world", "up"),
-    ("ssim", "SSIM", "{:.4f}", "", "up"),
-    ("m_mae", "M-MAE", "{:.4f} m", "splat depth against the scaffold", "down"),
-    ("m_rmse", "M-RMSE", "{:.4f} m", "", "down"),
-    ("n_cos", "N-Cos", "{:.4f}", "splat normals against the scaffold", "up"),
-    ("n_ang_deg", "N-Ang", "{:.2f}°", "", "down"),
-    ("reproj_mae_norm", "Reproj. MAE-norm", "{:.4f}", "depth of one view moved into another", "down"),
-    ("reproj_absrel", "Reproj. AbsRel", "{:.4f}", "", "down"),
-    ("holes", "Holes", "{:.2%}", "share of pixels that see through a surface", "down"),
-    ("navigability", "Navigability", "{:.1%}", "largest connected share of free floor", "up"),
-    ("navigability_body", "Navigability, 0.25 m body", "{:.1%}", "", "up"),
-    ("coverage_1", "Surface seen once", "{:.1%}", "share of reachable surface", "up"),
-    ("coverage_3", "Surface seen three times", "{:.1%}", "", "up"),
-    ("yield", "Yield", "{:.1%}", "planned views that were accepted", "up"),
-    ("atm", "Attempts a view", "{:.2f}", "", "down"),
-    ("rooms", "Rooms", "{}", "", ""),
-    ("views", "Views", "{}", "", ""),
-    ("gaussians", "Gaussians", "{:,}", "", ""),
-    ("seconds", "Time", "{:.0f} s", "this machine, all stages", "down"),
-    ("peak_gib", "Peak memory", "{:.2f} GiB", "", "down"),
-]
-
-
 def render_page(data: ReportData) -> str:
     """The whole page as HTML text; it loads nothing from anywhere."""
     pick = {
@@ -87,7 +64,7 @@ def render_page(data: ReportData) -> str:
         "heroes": "".join(_hero(name, image) for name, image in data.heroes.items()),
         "plan": draw_floorplan(data.plan, data.objects, data.views),
         "legend": camera_legend(),
-        "metrics": "".join(_metric_row(data, *row) for row in _ROWS),
+        "metrics": "".join(_metric_row(data, metric) for metric in METRICS.values()),
         "curve": plot_error_against_time(data.history) or "<p>No held-out evaluation was asked for.</p>",
         "stages": plot_stages(data.timings),
         "sheets": "".join(_sheet(name, rows) for name, rows in data.sheets.items()),
@@ -113,14 +90,11 @@ def _hero(name: str, image: np.ndarray) -> str:
     return f"<figure>{picture}<figcaption>{_title(name)}</figcaption></figure>"
 
 
-def _metric_row(data: ReportData, key: str, label: str, form: str, meaning: str, better: str) -> str:
-    value = data.metrics.get(key)
-    theirs = paper_figure(data.variant, key)
-    arrow = {"up": " ↑", "down": " ↓"}.get(better, "")
+def _metric_row(data: ReportData, metric: Metric) -> str:
     cells = [
-        f"<td>{label}{arrow}<small>{meaning}</small></td>",
-        f"<td class='n'>{'–' if value is None else form.format(value)}</td>",
-        f"<td class='n'>{'–' if theirs is None else form.format(theirs)}</td>",
+        f"<td title='{html.escape(metric.definition)}'>{metric.label} {metric.arrow}</td>",
+        f"<td class='n'>{metric.text(data.metrics.get(metric.key))}</td>",
+        f"<td class='n'>{metric.text(paper_figure(data.variant, metric.key))}</td>",
     ]
     return f"<tr>{''.join(cells)}</tr>"
 

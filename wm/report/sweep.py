@@ -14,27 +14,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from tabulate import tabulate
 
 from wm.errors import InputError
-from wm.report.paper import PAPER_ROWS
+from wm.metric_table import METRICS, MISSING, Metric
+from wm.report.paper import PAPER_COLUMNS, PAPER_ROWS
 
-# key, heading, how a value is written, whether more (+1) or less (-1) is better, 0: neither
-_COLUMNS = (
-    ("reproj_mae_norm", "MAE-norm", "{:.4f}", -1),
-    ("reproj_absrel", "AbsRel", "{:.4f}", -1),
-    ("m_mae", "M-MAE", "{:.4f}", -1),
-    ("m_rmse", "M-RMSE", "{:.4f}", -1),
-    ("n_cos", "N-Cos", "{:.4f}", 1),
-    ("n_ang_deg", "N-Ang", "{:.2f}", -1),
-    ("psnr", "PSNR", "{:.2f}", 1),
-    ("ssim", "SSIM", "{:.4f}", 1),
-    ("yield", "yield", "{:.3f}", 0),
-    ("atm", "Atm", "{:.2f}", 0),
-    ("seconds", "seconds", "{:.0f}", 0),
-)
+_COLUMNS = tuple(METRICS[key] for key in (*PAPER_COLUMNS, "psnr", "ssim", "yield", "atm", "seconds"))
 _NAMED = ("seed", "variant", "scene")
 """Parts of the configuration that name a row, or that runs of one row differ in."""
-_ARROWS = {1: " ↑", -1: " ↓", 0: ""}
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -67,11 +55,12 @@ def sweep_table(runs: Sequence[RunResult]) -> str:
     A row is named by its variant, its scene if there are several, and by whatever else differs between such runs.
     """
     groups = _grouped(runs)
-    best = {key: _best([_mean(members, key) for members in groups.values()], sense) for key, *_, sense in _COLUMNS}
-    rows = [[name, *(_cell(members, *column, best[column[0]]) for column in _COLUMNS)] for name, members in groups.items()]
+    best = {metric.key: _best([_mean(members, metric.key) for members in groups.values()], metric) for metric in _COLUMNS}
+    rows = [[name, *(_cell(members, metric, best[metric.key]) for metric in _COLUMNS)] for name, members in groups.items()]
     variants = [variant for variant in dict.fromkeys(run.config["variant"] for run in runs) if variant in PAPER_ROWS]
-    theirs = [[f"*paper: {variant}*", *(_paper_cell(variant, *column) for column in _COLUMNS)] for variant in variants]
-    return _aligned([["", *(heading + _ARROWS[sense] for _, heading, _, sense in _COLUMNS)], *rows, *theirs])
+    theirs = [[f"*paper: {variant}*", *(_paper_cell(variant, metric) for metric in _COLUMNS)] for variant in variants]
+    headings = ["", *(f"{metric.heading} {metric.arrow}" for metric in _COLUMNS)]
+    return tabulate([*rows, *theirs], headings, tablefmt="github", disable_numparse=True)
 
 
 def _grouped(runs: Sequence[RunResult]) -> dict[str, list[RunResult]]:
@@ -104,30 +93,26 @@ def _mean(runs: Sequence[RunResult], key: str) -> float | None:
     return float(np.mean(values)) if values else None
 
 
-def _best(values: Sequence[float | None], sense: int) -> float | None:
-    known = [value for value in values if value is not None]
-    return max(known, key=lambda value: sense * value) if known and sense and len(values) > 1 else None
+def _best(values: Sequence[float | None], metric: Metric) -> float | None:
+    """The best of a column; None where no value is better than another."""
+    known = {value for value in values if value is not None}
+    if len(known) < 2 or metric.better is None:
+        return None
+    return max(known) if metric.better == "higher" else min(known)
 
 
-def _cell(runs: Sequence[RunResult], key: str, heading: str, form: str, sense: int, best: float | None) -> str:
-    mean, values = _mean(runs, key), _values(runs, key)
+def _cell(runs: Sequence[RunResult], metric: Metric, best: float | None) -> str:
+    mean, values = _mean(runs, metric.key), _values(runs, metric.key)
     if mean is None:
-        return "–"
-    text = form.format(mean)
+        return MISSING
+    text = metric.number(mean)
     if len(values) > 1:
-        text += f" ± {form.format(max(abs(value - mean) for value in values))}"
+        text += f" ± {metric.number(max(abs(value - mean) for value in values))}"
     return f"**{text}**" if mean == best else text
 
 
-def _paper_cell(variant: str, key: str, heading: str, form: str, sense: int) -> str:
-    return form.format(PAPER_ROWS[variant][key]) if key in PAPER_ROWS[variant] else ""
-
-
-def _aligned(rows: Sequence[Sequence[str]]) -> str:
-    widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
-    lines = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |" for row in rows]
-    rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
-    return "\n".join([lines[0], rule, *lines[1:]])
+def _paper_cell(variant: str, metric: Metric) -> str:
+    return metric.number(PAPER_ROWS[variant][metric.key]) if metric.key in PAPER_ROWS[variant] else ""
 
 
 def main() -> None:

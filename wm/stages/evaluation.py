@@ -1,4 +1,4 @@
-"""Evaluate: the metrics of design.md section 6, on views that were never trained on."""
+"""Evaluate: the metrics of `wm.metric_table`, on views that were never trained on."""
 
 import dataclasses
 import itertools
@@ -26,7 +26,7 @@ from wm.types import OUTSIDE, GBuffer, Render, SurfaceKind, View
 
 _ssim = jax.jit(ssim)
 
-EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
+EVALUATION = "stages/evaluation.json"
 GLIMPSE = 1 / 4
 """Resolution at which a frame of the fly-through asks the scaffold what stands in its way."""
 HOLE = 0.5
@@ -45,7 +45,7 @@ class Seen:
 
 
 def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, heldout: HeldOut) -> dict:
-    """The run's metrics but for its time and memory."""
+    """The metrics of the run by their keys, but for its time and memory and for those that nothing could be measured for."""
     with job.stage("evaluate"):
         config = job.config
         key = job.key("evaluate", result.key, config.evaluate, config.navigation)
@@ -122,8 +122,8 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: He
                 seen.append(one)
                 bar.update()
             rows += _reprojection(seen, job.config.evaluate.min_overlap)
-    names = ("psnr", "ssim", "m_mae", "m_rmse", "n_cos", "n_ang_deg", "reproj_mae_norm", "reproj_absrel", "holes")
-    return {name: _mean([row[name] for row in rows if name in row]) for name in names}
+    measured = {name for row in rows for name in row}
+    return {name: _mean([row[name] for row in rows if name in row]) for name in measured}
 
 
 def _photometry(rgb: np.ndarray, truth: np.ndarray) -> dict[str, float]:

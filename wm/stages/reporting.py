@@ -9,9 +9,10 @@ from wm.artifacts import json_text
 from wm.codecs import to_bytes
 from wm.geometry import cast, walkthrough
 from wm.geometry.rays.pinhole import scale_camera
+from wm.metric_table import METRICS
 from wm.report import ReportData, SheetRow, render_page, write_video
 from wm.splat.optimization.curve import HELDOUT
-from wm.stages.evaluation import GLIMPSE, METRICS, Seen, glimpse, look_all, stored_render
+from wm.stages.evaluation import GLIMPSE, Seen, glimpse, look_all, stored_render
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
@@ -19,7 +20,7 @@ from wm.stages.reconstruction import Reconstruction
 from wm.stages.scene import Scene
 from wm.types import OUTSIDE, View
 
-VIDEO, REPORT = "flythrough.mp4", "report.html"
+VIDEO, REPORT, METRICS_FILE = "flythrough.mp4", "report.html", "metrics.json"
 SHEET_KINDS = ("bootstrap", "perimeter", "overhead", "doorway")
 """The contact sheet shows one view of each kind a room."""
 ENOUGH = 0.05
@@ -34,9 +35,9 @@ def report(job: Job, scene: Scene, painted: Painted, result: Reconstruction, met
     with job.stage("report"):
         if job.config.report.enabled:
             page = _page(job, scene, painted, result)
-    # Only now are the stages' times complete.
-    complete = metrics | {"seconds": job.meter.seconds, "peak_gib": job.meter.peak_gib}
-    job.folder.write(METRICS, json_text(complete))
+    # Only now are the stages' times complete. A metric that was not measured is there as null.
+    complete = dict.fromkeys(METRICS) | metrics | {"seconds": job.meter.seconds, "peak_gib": job.meter.peak_gib}
+    job.folder.write(METRICS_FILE, json_text(complete))
     if page is not None:
         job.folder.write(REPORT, render_page(dataclasses.replace(page, metrics=complete, timings=job.meter.stages)))
     return complete
