@@ -1,20 +1,17 @@
 """`report.html`: one self-contained page that shows what a run made and how good it is."""
 
-import base64
 import dataclasses
-import html
-import importlib.resources
-import string
 from collections.abc import Sequence
 
 import numpy as np
 
 from wm.geometry import FloorPlan
 from wm.metric_table import METRICS, Metric
-from wm.report.floorplan import camera_legend, draw_floorplan
+from wm.report.floorplan import CAMERA_COLOURS, draw_floorplan
 from wm.report.paper import paper_figure
-from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image
+from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image, media_uri
 from wm.report.plots import plot_error_against_time, plot_stages
+from wm.report.templating import fill
 from wm.types import SceneObject, View
 
 THUMBNAIL = 400
@@ -56,61 +53,32 @@ class ReportData:
 
 def render_page(data: ReportData) -> str:
     """The whole page as HTML text; it loads nothing from anywhere."""
-    pick = {
-        "title": html.escape(data.scene.replace("_", " ")),
-        "theme": html.escape(data.theme),
-        "facts": html.escape(f"variant {data.variant} · preset {data.preset} · seed {data.seed}"),
-        "video": _video(data.video),
-        "heroes": "".join(_hero(name, image) for name, image in data.heroes.items()),
-        "plan": draw_floorplan(data.plan, data.objects, data.views),
-        "legend": camera_legend(),
-        "metrics": "".join(_metric_row(data, metric) for metric in METRICS.values()),
-        "curve": plot_error_against_time(data.history) or "<p>No held-out evaluation was asked for.</p>",
-        "stages": plot_stages(data.timings),
-        "sheets": "".join(_sheet(name, rows) for name, rows in data.sheets.items()),
-        "range": f"{DEPTH_ERROR_RANGE * 100:.0f}",
-    }
-    template = importlib.resources.files("wm.report").joinpath("template.html").read_text(encoding="utf-8")
-    return string.Template(template).substitute(pick)
-
-
-def _video(video: bytes | None) -> str:
-    if not video:
-        return ""
-    uri = "data:video/mp4;base64," + base64.b64encode(video).decode()
-    return f'<video controls muted loop autoplay playsinline src="{uri}"></video>'
+    return fill(
+        "page.html",
+        data=data,
+        title=data.scene.replace("_", " "),
+        video=data.video and media_uri(data.video, "video/mp4"),
+        heroes=[{"title": _title(room), "image": data_uri(image, max_width=HERO)} for room, image in data.heroes.items()],
+        plan=draw_floorplan(data.plan, data.objects, data.views),
+        cameras=CAMERA_COLOURS,
+        metrics=[_metric_row(data, metric) for metric in METRICS.values()],
+        curve=plot_error_against_time(data.history),
+        stages=plot_stages(data.timings),
+        sheets=[{"title": _title(room), "rows": [_sheet_row(row) for row in rows]} for room, rows in data.sheets.items()],
+        depth_error_cm=f"{DEPTH_ERROR_RANGE * 100:.0f}",
+    )
 
 
 def _title(room: str) -> str:
-    return html.escape(room.replace("_", " ").capitalize())
+    return room.replace("_", " ").capitalize()
 
 
-def _hero(name: str, image: np.ndarray) -> str:
-    picture = f'<img loading="lazy" src="{data_uri(image, max_width=HERO)}">'
-    return f"<figure>{picture}<figcaption>{_title(name)}</figcaption></figure>"
+def _metric_row(data: ReportData, metric: Metric) -> dict:
+    ours, paper = data.metrics.get(metric.key), paper_figure(data.variant, metric.key)
+    return {"metric": metric, "ours": metric.text(ours), "paper": metric.text(paper)}
 
 
-def _metric_row(data: ReportData, metric: Metric) -> str:
-    cells = [
-        f"<td title='{html.escape(metric.definition)}'>{metric.label} {metric.arrow}</td>",
-        f"<td class='n'>{metric.text(data.metrics.get(metric.key))}</td>",
-        f"<td class='n'>{metric.text(paper_figure(data.variant, metric.key))}</td>",
-    ]
-    return f"<tr>{''.join(cells)}</tr>"
-
-
-def _sheet(name: str, rows: list[SheetRow]) -> str:
-    def cell(image: np.ndarray) -> str:
-        return f'<td><img loading="lazy" src="{data_uri(image, max_width=THUMBNAIL)}"></td>'
-
-    body = "".join(
-        "<tr>"
-        + cell(row.condition)
-        + cell(row.generated)
-        + cell(row.splats)
-        + cell(depth_error_image(row.splat_depth, row.scaffold_depth))
-        + f"</tr><tr class='cap'><td colspan='4'>{html.escape(row.name)} · {html.escape(row.note)}</td></tr>"
-        for row in rows
-    )
-    head = "<tr><th>condition</th><th>generated</th><th>splat render</th><th>depth error</th></tr>"
-    return f"<h3>{_title(name)}</h3><table class='sheet'>{head}{body}</table>"
+def _sheet_row(row: SheetRow) -> dict:
+    error = depth_error_image(row.splat_depth, row.scaffold_depth)
+    images = [data_uri(image, max_width=THUMBNAIL) for image in (row.condition, row.generated, row.splats, error)]
+    return {"images": images, "caption": f"{row.name} · {row.note}"}

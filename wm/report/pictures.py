@@ -28,4 +28,9 @@ def data_uri(rgb: Num[np.ndarray, "h w 3"], *, max_width: int, quality: int = 82
         image = image.resize((max_width, round(image.height * max_width / image.width)), Image.Resampling.LANCZOS)
     buffer = io.BytesIO()
     image.save(buffer, format="JPEG", quality=quality)
-    return "data:image/jpeg;base64," + base64.b64encode(buffer.getvalue()).decode()
+    return media_uri(buffer.getvalue(), "image/jpeg")
+
+
+def media_uri(data: bytes, kind: str) -> str:
+    """Data of a media type ("video/mp4") as a data URI."""
+    return f"data:{kind};base64,{base64.b64encode(data).decode()}"

@@ -4,6 +4,7 @@ import io
 from collections.abc import Sequence
 
 import matplotlib
+from markupsafe import Markup
 
 matplotlib.use("Agg")
 
@@ -17,7 +18,7 @@ INK = "#30638e"
 SECOND = "#d1495b"
 
 
-def plot_error_against_time(history: Sequence[dict]) -> str:
+def plot_error_against_time(history: Sequence[dict]) -> Markup:
     """Held-out PSNR and depth error over the seconds of the fit.
 
     Args:
@@ -28,7 +29,7 @@ def plot_error_against_time(history: Sequence[dict]) -> str:
     """
     panels = [key for key in CURVES if any(row.get(key) is not None for row in history)]
     if not panels:
-        return ""
+        return Markup()
     figure = _figure(7.2, 1.7 * len(panels) + 0.3)
     for k, key in enumerate(panels):
         rows = [row for row in history if row.get(key) is not None]
@@ -41,7 +42,7 @@ def plot_error_against_time(history: Sequence[dict]) -> str:
     return _svg(figure)
 
 
-def plot_stages(timings: dict[str, dict[str, float]]) -> str:
+def plot_stages(timings: dict[str, dict[str, float]]) -> Markup:
     """Seconds and peak memory of each stage, as bars."""
     names = list(timings)
     figure = _figure(7.2, 0.34 * len(names) + 0.8)
@@ -61,8 +62,8 @@ def _figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def _svg(figure: Figure) -> str:
+def _svg(figure: Figure) -> Markup:
     buffer = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": "wm", "font.size": 8}):
         figure.savefig(buffer, format="svg", metadata={"Date": None}, transparent=True)
-    return buffer.getvalue()[buffer.getvalue().index("<svg") :]
+    return Markup(buffer.getvalue()[buffer.getvalue().index("<svg") :])
