@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import shapely
+from tabulate import tabulate
 
 from wm.offline.language.programme import kind_of
 from wm.run import load_config, options
@@ -74,9 +75,7 @@ def main() -> None:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
-    print(" | ".join(rows[0]))
-    for row in rows:
-        print(" | ".join(str(value) for value in row.values()))
+    print(tabulate(rows, "keys", tablefmt="github", disable_numparse=True))
 
 
 if __name__ == "__main__":
