@@ -1,16 +1,14 @@
 """How long each stage took and how much memory it held: `timings.json` and the summary."""
 
 import contextlib
-import os
-import pathlib
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 
+from wm.memory import MemoryProbe, resident_gib
+
 SAMPLE_SECONDS = 0.05
-
-
+"""How often the memory is read."""
 KEEP_SECONDS = 5.0
 """How often the times of a stage under way are kept, for the case that the process is killed."""
 
@@ -51,9 +49,9 @@ class StageMeter:
             return self.stages | {name: _together(self._known(name), row)}
 
         def watch() -> None:
-            kept = started
+            kept, probe = started, MemoryProbe()
             while not done.wait(SAMPLE_SECONDS):
-                peak[0] = max(peak[0], resident_gib())
+                peak[0] = max(peak[0], probe.resident_gib())
                 if time.perf_counter() - kept > KEEP_SECONDS:
                     with contextlib.suppress(OSError):  # a full disk is for the stage to say
                         self._keep(rows())
@@ -92,38 +90,3 @@ def _together(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
     """The row of two parts of a stage."""
     seconds, peak = a["seconds"] + b["seconds"], max(a["peak_gib"], b["peak_gib"])
     return {"seconds": round(seconds, 3), "peak_gib": round(peak, 3)}
-
-
-def resident_gib() -> float:
-    """Resident memory of this process in GiB: now and with its workers on Linux, the highest so far elsewhere."""
-    own = pathlib.Path("/proc/self")
-    if (own / "statm").exists():
-        return sum(map(_resident_pages, [own, *_children(own)])) * os.sysconf("SC_PAGE_SIZE") / 2**30
-    try:
-        import resource
-    except ImportError:  # Windows
-        return 0.0
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 2**30
-
-
-def _children(process: pathlib.Path) -> list[pathlib.Path]:
-    """Children of a process: each is listed with the thread that started it.
-
-    One that goes by the parent's own command line has been forked and is no program of its own yet: its memory is the parent's.
-    """
-    pids = [pid for listed in process.glob("task/*/children") for pid in _read(listed).split()]
-    children, command = [pathlib.Path("/proc") / pid for pid in pids], _read(process / "cmdline")
-    return [child for child in children if _read(child / "cmdline") != command]
-
-
-def _read(file: pathlib.Path) -> str:
-    try:
-        return file.read_text()
-    except OSError:  # its thread or process has ended meanwhile
-        return ""
-
-
-def _resident_pages(process: pathlib.Path) -> int:
-    pages = _read(process / "statm").split()
-    return int(pages[1]) if pages else 0
