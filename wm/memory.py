@@ -10,11 +10,11 @@ import time
 import psutil
 
 LIST_SECONDS = 0.5
-"""How often children are listed."""
+"""Least interval between two listings of the children."""
 
 
 class MemoryProbe:
-    """Reads the resident memory of this process and of its children again and again, cheaply."""
+    """Reads the memory of this process and of its children; cheap enough for many readings per second."""
 
     def __init__(self) -> None:
         self._own = psutil.Process()

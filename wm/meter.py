@@ -1,4 +1,4 @@
-"""How long each stage took and how much memory it held: `timings.json` and the summary."""
+"""Time and peak memory of each stage, for `timings.json`, the report and the summary."""
 
 import contextlib
 import threading
@@ -8,19 +8,19 @@ from collections.abc import Callable, Iterator
 from wm.memory import MemoryProbe, resident_gib
 
 SAMPLE_SECONDS = 0.05
-"""How often the memory is read."""
+"""Interval at which memory is read."""
 KEEP_SECONDS = 5.0
-"""How often the times of a stage under way are kept, for the case that the process is killed."""
+"""Interval at which the times of an unfinished stage are saved, in case the process is killed."""
 
 Rows = dict[str, dict[str, float]]
 
 
 class StageMeter:
-    """Seconds and peak resident memory of each stage; seconds add up over the parts of an interrupted run.
+    """Seconds and peak resident memory of each stage. The seconds of an interrupted run add up over its parts.
 
     Args:
-      earlier: rows that the run folder has from before.
-      keep: called with all rows every now and then, from another thread, and at the end of each stage.
+      earlier: the rows that an earlier part of the run has left.
+      keep: saves all rows. It is called from another thread every KEEP_SECONDS of a stage, and at the end of each stage.
     """
 
     def __init__(self, earlier: Rows | None = None, keep: Callable[[Rows], None] = lambda rows: None):
@@ -29,16 +29,16 @@ class StageMeter:
         self._outdated: set[str] = set()
 
     def outdate(self) -> None:
-        """What is there so far is of another run: a row counts only as long as its stage makes nothing anew."""
+        """Declares the rows so far to be of another run: a stage's row is replaced as soon as it makes something anew."""
         self._outdated = set(self.stages)
 
     @contextlib.contextmanager
     def stage(self, name: str, made: Callable[[], bool] = lambda: True) -> Iterator[None]:
-        """Measures the block as (a further part of) stage `name`.
+        """Measures the block as stage `name`, or as a further part of it.
 
         Args:
-          name: of the stage.
-          made: whether it has made anything so far. One that finds all done costs nothing, if it has a row.
+          name: the stage.
+          made: whether the stage has made anything so far. A stage that finds everything done keeps the row that it has.
         """
         started, peak, done = time.perf_counter(), [resident_gib()], threading.Event()
 
@@ -53,7 +53,7 @@ class StageMeter:
             while not done.wait(SAMPLE_SECONDS):
                 peak[0] = max(peak[0], probe.resident_gib())
                 if time.perf_counter() - kept > KEEP_SECONDS:
-                    with contextlib.suppress(OSError):  # a full disk is for the stage to say
+                    with contextlib.suppress(OSError):  # of a full disk the stage itself complains
                         self._keep(rows())
                     kept = time.perf_counter()
 
@@ -69,7 +69,7 @@ class StageMeter:
             self._keep(self.stages)
 
     def credit(self, name: str, row: dict[str, float]) -> None:
-        """Adds what (a part of) stage `name` has cost elsewhere, where its result was taken from."""
+        """Adds to stage `name` the time and memory that its result, or a part of it, has cost in the run it was copied from."""
         self.stages = self.stages | {name: _together(self._known(name), row)}
         self._outdated.discard(name)
 
@@ -87,6 +87,6 @@ class StageMeter:
 
 
 def _together(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
-    """The row of two parts of a stage."""
+    """The row of two parts of a stage together."""
     seconds, peak = a["seconds"] + b["seconds"], max(a["peak_gib"], b["peak_gib"])
     return {"seconds": round(seconds, 3), "peak_gib": round(peak, 3)}

@@ -1,7 +1,7 @@
 """The stages in order: plan, structure, furnish, cameras, paint, heldout, reconstruct, evaluate, report.
 
-A stage's key is a digest of its configuration, the seed and the keys of its inputs, so a resumed run does again only what is
-missing, and ends with the same bytes as an undisturbed one. Each stage is a function of `wm.stages`.
+Each stage is a function of `wm.stages`. Its key is a digest of its configuration, the seed and the keys of its inputs, so that a
+resumed run makes only what is missing and ends with the same bytes as an uninterrupted one.
 """
 
 import contextlib
@@ -31,29 +31,29 @@ from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.synth.backends import close_backend, make_backend
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
-"""Files that a stage leaves and that depend on the clock."""
+"""The file of a stage whose content depends on the clock, and which therefore is not part of the stage's entry."""
 
 
 def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib.Path] = ()) -> dict:
     """One run, from the theme to the report.
 
     Args:
-      config: all of it, checked (wm.validate).
-      folder: the run folder; one that holds part of the same run is continued.
-      neighbours: other run folders, from which finished stages are copied where they would come out the same. Their time and
-        memory count as this run's, so that runs stay comparable whatever was there before them.
+      config: the whole configuration, already checked (wm.validate).
+      folder: the run folder. If it holds a part of the same run, that run is continued.
+      neighbours: other run folders. A finished stage of theirs that has the same key is copied instead of made again; its time
+        and memory are added to this run's, so that the times of runs stay comparable.
 
     Returns:
-      What `metrics.json` holds.
+      The content of `metrics.json`.
 
     Raises:
-      ArtifactError: the folder is in use, or holds another run.
-      PlanError, ProposalError, ValueError: the plan or the views cannot be made as asked; the message says why.
+      ArtifactError: the folder is in use, or holds a run of another configuration.
+      PlanError, ProposalError, ValueError: the plan or the views cannot be made as configured; the message says why.
       OSError: the folder cannot be written.
     """
     prepare_process()
     if config.plan.file is not None:
-        load_plan(pathlib.Path(config.plan.file))  # a plan that cannot be used leaves no folder behind
+        load_plan(pathlib.Path(config.plan.file))  # raises before a folder is made
     header, meter = _header(config), StageMeter(_timings(folder), keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
     lend = Neighbours(neighbours, say=print, account=account).lend
@@ -73,7 +73,7 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
 
 
 def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
-    """All that the image and depth backends are asked for; they are closed afterwards, and gone with their memory."""
+    """The stages that need the image and depth backends, which are closed afterwards to free their memory."""
     with contextlib.ExitStack() as done:
         image = make_backend("image", job.config.image, scene.context)
         done.callback(close_backend, image)
@@ -83,7 +83,7 @@ def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
 
 
 def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pathlib.Path) -> None:
-    """What a stage that was taken from elsewhere has cost there, as if it had been done here."""
+    """Adds the time and memory of a copied stage to ours, and copies its file that depends on the clock."""
     if stage in (timings := _timings(elsewhere)):
         meter.credit(stage, timings[stage])
     if (elsewhere / (clocked := _CLOCKED.get(stage, ""))).is_file():
@@ -99,7 +99,7 @@ def _keep_timings(folder: pathlib.Path, rows: dict) -> None:
 
 
 def _timings(folder: pathlib.Path) -> dict:
-    """What a finished or interrupted run has measured; nothing if the file is not there or not whole."""
+    """The rows that a finished or interrupted run has left; none if the file is missing or damaged."""
     try:
         rows = json.loads((folder / TIMINGS).read_text())
         return {name: {"seconds": float(row["seconds"]), "peak_gib": float(row["peak_gib"])} for name, row in rows.items()}
@@ -117,7 +117,7 @@ def _summary(folder: pathlib.Path, job: Job, metrics: dict) -> str:
         [
             f"\n{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
             tabulate(rows, tablefmt="plain", colalign=("left", "right", "right"), disable_numparse=True),
-            f"held-out: {held_out}" if held_out else "held-out: nothing to compare with",
+            f"held-out: {held_out}" if held_out else "held-out: not measured",
             f"results: {where}",
         ]
     )

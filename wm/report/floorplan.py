@@ -13,7 +13,9 @@ from wm.types import SceneObject, View
 
 PIXELS_PER_METRE = 44
 MARGIN = 0.8
+"""Metres around the plan."""
 CAMERA_LENGTH = 0.35
+"""Metres of the line that shows where a camera looks."""
 
 CAMERA_COLOURS = {
     "bootstrap": "#d1495b",
@@ -86,7 +88,7 @@ def _camera(sheet: _Sheet, view: View) -> dict:
 
 
 def _footprint(thing: SceneObject) -> np.ndarray:
-    """[4, 2] corners of the oriented box on the floor."""
+    """[4, 2] corners of the object's oriented box, seen from above, metres."""
     x, y = thing.size[0] / 2, thing.size[1] / 2
     corners = np.array([[-x, -y, 0, 1], [x, -y, 0, 1], [x, y, 0, 1], [-x, y, 0, 1]])
     return (corners @ thing.T_world_object.T)[:, :2]

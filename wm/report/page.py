@@ -1,4 +1,4 @@
-"""`report.html`: one self-contained page that shows what a run made and how good it is."""
+"""`report.html`: one self-contained page with what a run made and its metrics."""
 
 import dataclasses
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ class SheetRow:
     """One view in the contact sheet."""
 
     name: str
-    note: str  # recall and attempts, say
+    note: str  # edge recall, attempts and style reference, in words
     condition: np.ndarray  # [h, w, 3]
     generated: np.ndarray  # [h, w, 3]
     splats: np.ndarray  # [h, w, 3]
@@ -52,7 +52,7 @@ class ReportData:
 
 
 def render_page(data: ReportData) -> str:
-    """The whole page as HTML text; it loads nothing from anywhere."""
+    """The page as HTML text. It loads nothing from elsewhere: pictures and video are part of it."""
     return fill(
         "page.html",
         data=data,

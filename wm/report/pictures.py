@@ -11,11 +11,11 @@ from PIL import Image
 from wm.codecs import to_bytes
 
 DEPTH_ERROR_RANGE = 0.10
-"""Metres at which the colour of a depth error saturates."""
+"""Depth error, in metres, at which the colour saturates."""
 
 
 def depth_error_image(ours: Float[np.ndarray, "h w"], scaffold: Float[np.ndarray, "h w"]) -> UInt8[np.ndarray, "h w 3"]:
-    """|ours - scaffold| from dark (0) to bright (DEPTH_ERROR_RANGE or more); grey where the scaffold is not hit."""
+    """|ours - scaffold| as a colour, from dark (0) to bright (DEPTH_ERROR_RANGE or more); grey where the scaffold is not hit."""
     error = np.clip(np.abs(ours - scaffold) / DEPTH_ERROR_RANGE, 0, 1)
     colours = matplotlib.colormaps["inferno"](error)[..., :3]
     return to_bytes(np.where((scaffold > 0)[..., None], colours, 0.5))

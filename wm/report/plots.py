@@ -1,4 +1,4 @@
-"""Figures of the report as inline SVG: held-out error against wall-clock, time and memory of the stages."""
+"""Plots of the report as inline SVG: held-out error against time, and time and memory of the stages."""
 
 import io
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ SECOND = "#d1495b"
 
 
 def plot_error_against_time(history: Sequence[dict]) -> Markup:
-    """Held-out PSNR and depth error over the seconds of the fit.
+    """Held-out error against the wall-clock time of the fit.
 
     Args:
       history: rows with `seconds` and any keys of CURVES, in order.

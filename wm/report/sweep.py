@@ -1,8 +1,8 @@
-"""One table of several runs: the rows of an ablation in the paper's columns, over seeds, with the paper's figures below.
+"""One table that compares several runs in the columns of the paper's ablation, with the paper's figures below ours.
 
     python -m wm.report.sweep outputs/gothic
 
-Runs that differ in nothing but their seed share a row: the mean, and how far the seeds lie from it at most.
+Runs that differ only in their seed share a row: the mean over the seeds, and the largest distance of a seed from it.
 """
 
 import argparse
@@ -22,19 +22,19 @@ from wm.report.paper import PAPER_COLUMNS, PAPER_ROWS
 
 _COLUMNS = tuple(METRICS[key] for key in (*PAPER_COLUMNS, "psnr", "ssim", "yield", "atm", "seconds"))
 _NAMED = ("seed", "variant", "scene")
-"""Parts of the configuration that name a row, or that runs of one row differ in."""
+"""Parts of the configuration that a row's name does not give as `key=value`."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class RunResult:
-    """A finished run, as its folder tells."""
+    """A finished run, read from its folder."""
 
     config: Mapping[str, Any]  # as in manifest.json
     metrics: Mapping[str, float | None]
 
 
 def read_runs(folders: Iterable[pathlib.Path]) -> list[RunResult]:
-    """The runs in these folders, in order. Raises: InputError for a folder that holds no finished run."""
+    """The runs in these folders, in order. Raises: InputError where a folder holds no finished run."""
     return [_read(folder) for folder in folders]
 
 
@@ -46,13 +46,14 @@ def _read(folder: pathlib.Path) -> RunResult:
                 return RunResult(config=config, metrics=dict(metrics))
     except (OSError, ValueError, KeyError, TypeError):
         pass
-    raise InputError(f"{folder} holds no finished run: manifest.json and metrics.json belong in it")
+    raise InputError(f"{folder} holds no finished run: manifest.json and metrics.json must both be in it")
 
 
 def sweep_table(runs: Sequence[RunResult]) -> str:
-    """A Markdown table with a row for each configuration, the best of each column in bold; then the paper's rows of the variants.
+    """A Markdown table with a row for each configuration and the best value of each column in bold, and below it the paper's row
+    for each variant.
 
-    A row is named by its variant, its scene if there are several, and by whatever else differs between such runs.
+    A row is named by its variant, by its scene if there are several, and by every other key in which such runs differ.
     """
     groups = _grouped(runs)
     best = {metric.key: _best([_mean(members, metric.key) for members in groups.values()], metric) for metric in _COLUMNS}
@@ -64,7 +65,7 @@ def sweep_table(runs: Sequence[RunResult]) -> str:
 
 
 def _grouped(runs: Sequence[RunResult]) -> dict[str, list[RunResult]]:
-    """Runs by the name of their row."""
+    """The runs of each row, by the name of the row."""
     several = len({run.config["scene"]["name"] for run in runs}) > 1
     kinds = [(run.config["scene"]["name"],) * several + (run.config["variant"],) for run in runs]
     leaves = [{key: x for key, x in _leaves(run.config).items() if key.partition(".")[0] not in _NAMED} for run in runs]
@@ -116,13 +117,13 @@ def _paper_cell(variant: str, metric: Metric) -> str:
 
 
 def main() -> None:
-    """The command line: every finished run under the folders it is given."""
+    """The command line: prints the table of every finished run under the given folders."""
     parser = argparse.ArgumentParser(prog="python -m wm.report.sweep", description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("folders", nargs="*", type=pathlib.Path, default=[pathlib.Path("outputs")], help="with runs below")
+    parser.add_argument("folders", nargs="*", type=pathlib.Path, default=[pathlib.Path("outputs")], help="with runs in them")
     roots = parser.parse_args().folders
     folders = [path.parent for root in roots for path in sorted(root.rglob("metrics.json"))]
     if not folders:
-        sys.exit(f"wm: no finished run under {', '.join(map(str, roots))}: a run folder holds metrics.json")
+        sys.exit(f"wm: no finished run under {', '.join(map(str, roots))}: no metrics.json was found")
     runs = []
     for folder in folders:
         try:
