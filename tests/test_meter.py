@@ -1,17 +1,15 @@
 """Stage times add up over interruptions and memory is a peak."""
 
-import pathlib
-import subprocess
-import sys
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
+from tests.test_memory import start_worker
 from wm import meter as module
-from wm.meter import StageMeter, resident_gib
+from wm.memory import resident_gib
+from wm.meter import StageMeter
 
 
 def test_seconds_add_up_and_peaks_do_not():
@@ -85,36 +83,11 @@ def test_a_failing_stage_is_still_measured():
     assert "fit" in meter.stages
 
 
-@pytest.mark.skipif(not pathlib.Path("/proc/self/task").exists(), reason="counts workers on Linux only")
-def test_the_memory_of_workers_counts_whichever_thread_started_them():
-    before = resident_gib()
-    code = "block = b'x' * 300_000_000; print('ready', flush=True); input()"
-
-    def start():
-        return subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-
-    with ThreadPoolExecutor(1) as thread, thread.submit(start).result() as worker:
-        assert worker.stdout is not None and worker.stdout.readline() == b"ready\n"
-        assert resident_gib() > before + 0.25
+def test_a_peak_counts_a_worker_that_began_and_ended_within_the_stage(monkeypatch):
+    monkeypatch.setattr(module, "KEEP_SECONDS", 0.0)
+    before, seen = resident_gib(), threading.Event()
+    meter = StageMeter(keep=lambda rows: seen.set() if rows["fit"]["peak_gib"] > before + 0.25 else None)
+    with meter.stage("fit"), start_worker() as worker:
+        assert seen.wait(60)
         worker.communicate(b"\n")
-
-
-@pytest.mark.skipif(not pathlib.Path("/proc/self/task").exists(), reason="counts workers on Linux only")
-def test_the_memory_of_a_child_that_has_only_been_forked_is_counted_once():
-    code = """
-import os
-from wm import meter as module
-from wm.meter import resident_gib
-
-block = b"x" * 300_000_000
-ends = os.pipe()
-before = resident_gib()
-if os.fork() == 0:
-    os.read(ends[0], 1)
-    os._exit(0)
-print(resident_gib() - before)
-os.write(ends[1], b"x")
-os.wait()
-"""
-    grown = float(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout)
-    assert grown < 0.1
+    assert resident_gib() < before + 0.25 < meter.peak_gib

@@ -1,28 +1,26 @@
-"""How long each stage took and how much memory it held: `timings.json` and the summary."""
+"""Time and peak memory of each stage, for `timings.json`, the report and the summary."""
 
 import contextlib
-import os
-import pathlib
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 
+from wm.memory import MemoryProbe, resident_gib
+
 SAMPLE_SECONDS = 0.05
-
-
+"""Interval at which memory is read."""
 KEEP_SECONDS = 5.0
-"""How often the times of a stage under way are kept, for the case that the process is killed."""
+"""Interval at which the times of an unfinished stage are saved, in case the process is killed."""
 
 Rows = dict[str, dict[str, float]]
 
 
 class StageMeter:
-    """Seconds and peak resident memory of each stage; seconds add up over the parts of an interrupted run.
+    """Seconds and peak resident memory of each stage. The seconds of an interrupted run add up over its parts.
 
     Args:
-      earlier: rows that the run folder has from before.
-      keep: called with all rows every now and then, from another thread, and at the end of each stage.
+      earlier: the rows that an earlier part of the run has left.
+      keep: saves all rows. It is called from another thread every KEEP_SECONDS of a stage, and at the end of each stage.
     """
 
     def __init__(self, earlier: Rows | None = None, keep: Callable[[Rows], None] = lambda rows: None):
@@ -31,16 +29,16 @@ class StageMeter:
         self._outdated: set[str] = set()
 
     def outdate(self) -> None:
-        """What is there so far is of another run: a row counts only as long as its stage makes nothing anew."""
+        """Declares the rows so far to be of another run: a stage's row is replaced as soon as it makes something anew."""
         self._outdated = set(self.stages)
 
     @contextlib.contextmanager
     def stage(self, name: str, made: Callable[[], bool] = lambda: True) -> Iterator[None]:
-        """Measures the block as (a further part of) stage `name`.
+        """Measures the block as stage `name`, or as a further part of it.
 
         Args:
-          name: of the stage.
-          made: whether it has made anything so far. One that finds all done costs nothing, if it has a row.
+          name: the stage.
+          made: whether the stage has made anything so far. A stage that finds everything done keeps the row that it has.
         """
         started, peak, done = time.perf_counter(), [resident_gib()], threading.Event()
 
@@ -51,11 +49,11 @@ class StageMeter:
             return self.stages | {name: _together(self._known(name), row)}
 
         def watch() -> None:
-            kept = started
+            kept, probe = started, MemoryProbe()
             while not done.wait(SAMPLE_SECONDS):
-                peak[0] = max(peak[0], resident_gib())
+                peak[0] = max(peak[0], probe.resident_gib())
                 if time.perf_counter() - kept > KEEP_SECONDS:
-                    with contextlib.suppress(OSError):  # a full disk is for the stage to say
+                    with contextlib.suppress(OSError):  # of a full disk the stage itself complains
                         self._keep(rows())
                     kept = time.perf_counter()
 
@@ -71,7 +69,7 @@ class StageMeter:
             self._keep(self.stages)
 
     def credit(self, name: str, row: dict[str, float]) -> None:
-        """Adds what (a part of) stage `name` has cost elsewhere, where its result was taken from."""
+        """Adds to stage `name` the time and memory that its result, or a part of it, has cost in the run it was copied from."""
         self.stages = self.stages | {name: _together(self._known(name), row)}
         self._outdated.discard(name)
 
@@ -89,41 +87,6 @@ class StageMeter:
 
 
 def _together(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
-    """The row of two parts of a stage."""
+    """The row of two parts of a stage together."""
     seconds, peak = a["seconds"] + b["seconds"], max(a["peak_gib"], b["peak_gib"])
     return {"seconds": round(seconds, 3), "peak_gib": round(peak, 3)}
-
-
-def resident_gib() -> float:
-    """Resident memory of this process in GiB: now and with its workers on Linux, the highest so far elsewhere."""
-    own = pathlib.Path("/proc/self")
-    if (own / "statm").exists():
-        return sum(map(_resident_pages, [own, *_children(own)])) * os.sysconf("SC_PAGE_SIZE") / 2**30
-    try:
-        import resource
-    except ImportError:  # Windows
-        return 0.0
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 2**30
-
-
-def _children(process: pathlib.Path) -> list[pathlib.Path]:
-    """Children of a process: each is listed with the thread that started it.
-
-    One that goes by the parent's own command line has been forked and is no program of its own yet: its memory is the parent's.
-    """
-    pids = [pid for listed in process.glob("task/*/children") for pid in _read(listed).split()]
-    children, command = [pathlib.Path("/proc") / pid for pid in pids], _read(process / "cmdline")
-    return [child for child in children if _read(child / "cmdline") != command]
-
-
-def _read(file: pathlib.Path) -> str:
-    try:
-        return file.read_text()
-    except OSError:  # its thread or process has ended meanwhile
-        return ""
-
-
-def _resident_pages(process: pathlib.Path) -> int:
-    pages = _read(process / "statm").split()
-    return int(pages[1]) if pages else 0

@@ -1,7 +1,7 @@
 """The stages in order: plan, structure, furnish, cameras, paint, heldout, reconstruct, evaluate, report.
 
-A stage's key is a digest of its configuration, the seed and the keys of its inputs, so a resumed run does again only what is
-missing, and ends with the same bytes as an undisturbed one. Each stage is a function of `wm.stages`.
+Each stage is a function of `wm.stages`. Its key is a digest of its configuration, the seed and the keys of its inputs, so that a
+resumed run makes only what is missing and ends with the same bytes as an uninterrupted one.
 """
 
 import contextlib
@@ -10,47 +10,50 @@ import json
 import pathlib
 from collections.abc import Sequence
 
+from tabulate import tabulate
+
 from wm.artifacts import identity, json_text, open_run_folder, write_atomically
 from wm.geometry import load_plan
 from wm.host import prepare_process
 from wm.meter import StageMeter
+from wm.metric_table import METRICS
 from wm.neighbours import Neighbours
 from wm.schema import RunConfig
 from wm.splat.optimization.padding import Capacity
-from wm.stages.evaluation import METRICS, evaluate
+from wm.stages.evaluation import evaluate
 from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.job import TIMINGS, Job, versions
 from wm.stages.painting import Painted, is_painted, paint
 from wm.stages.reconstruction import HISTORY, reconstruct
-from wm.stages.reporting import REPORT, report
+from wm.stages.reporting import METRICS_FILE, REPORT, report
 from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.stages.warm_up import warming_up
 from wm.synth.registry import close_backend, make_backend
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
-"""Files that a stage leaves and that depend on the clock."""
+"""The file of a stage whose content depends on the clock, and which therefore is not part of the stage's entry."""
 
 
 def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib.Path] = ()) -> dict:
     """One run, from the theme to the report.
 
     Args:
-      config: all of it, checked (wm.validate).
-      folder: the run folder; one that holds part of the same run is continued.
-      neighbours: other run folders, from which finished stages are copied where they would come out the same. Their time and
-        memory count as this run's, so that runs stay comparable whatever was there before them.
+      config: the whole configuration, already checked (wm.validate).
+      folder: the run folder. If it holds a part of the same run, that run is continued.
+      neighbours: other run folders. A finished stage of theirs that has the same key is copied instead of made again; its time
+        and memory are added to this run's, so that the times of runs stay comparable.
 
     Returns:
-      What `metrics.json` holds.
+      The content of `metrics.json`.
 
     Raises:
-      ArtifactError: the folder is in use, or holds another run.
-      PlanError, ProposalError, ValueError: the plan or the views cannot be made as asked; the message says why.
+      ArtifactError: the folder is in use, or holds a run of another configuration.
+      PlanError, ProposalError, ValueError: the plan or the views cannot be made as configured; the message says why.
       OSError: the folder cannot be written.
     """
     prepare_process()
     if config.plan.file is not None:
-        load_plan(pathlib.Path(config.plan.file))  # a plan that cannot be used leaves no folder behind
+        load_plan(pathlib.Path(config.plan.file))  # raises before a folder is made
     header, meter = _header(config), StageMeter(_timings(folder), keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
     lend = Neighbours(neighbours, say=print, account=account).lend
@@ -70,7 +73,7 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
 
 
 def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
-    """All that the image and depth backends are asked for; they are closed afterwards, and gone with their memory."""
+    """The stages that need the image and depth backends, which are closed afterwards to free their memory."""
     with contextlib.ExitStack() as done:
         image = make_backend("image", job.config.image, scene.context)
         done.callback(close_backend, image)
@@ -80,7 +83,7 @@ def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
 
 
 def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pathlib.Path) -> None:
-    """What a stage that was taken from elsewhere has cost there, as if it had been done here."""
+    """Adds the time and memory of a copied stage to ours, and copies its file that depends on the clock."""
     if stage in (timings := _timings(elsewhere)):
         meter.credit(stage, timings[stage])
     if (elsewhere / (clocked := _CLOCKED.get(stage, ""))).is_file():
@@ -96,7 +99,7 @@ def _keep_timings(folder: pathlib.Path, rows: dict) -> None:
 
 
 def _timings(folder: pathlib.Path) -> dict:
-    """What a finished or interrupted run has measured; nothing if the file is not there or not whole."""
+    """The rows that a finished or interrupted run has left; none if the file is missing or damaged."""
     try:
         rows = json.loads((folder / TIMINGS).read_text())
         return {name: {"seconds": float(row["seconds"]), "peak_gib": float(row["peak_gib"])} for name, row in rows.items()}
@@ -105,16 +108,16 @@ def _timings(folder: pathlib.Path) -> dict:
 
 
 def _summary(folder: pathlib.Path, job: Job, metrics: dict) -> str:
-    rows = [f"  {name:<12}{row['seconds']:9.1f} s {row['peak_gib']:7.2f} GiB" for name, row in job.meter.stages.items()]
-    figures = (("psnr", "PSNR", "{:.2f} dB"), ("m_mae", "M-MAE", "{:.4f} m"), ("n_ang_deg", "N-Ang", "{:.1f} deg"))
-    held_out = ", ".join(f"{label} {form.format(metrics[key])}" for key, label, form in figures if metrics.get(key) is not None)
-    where = folder / REPORT if job.config.report.enabled else folder / METRICS
+    stages = {**job.meter.stages, "in all": metrics}
+    rows = [(name, *(METRICS[key].text(row[key]) for key in ("seconds", "peak_gib"))) for name, row in stages.items()]
+    measured = (METRICS[key] for key in ("psnr", "m_mae", "n_ang_deg") if metrics[key] is not None)
+    held_out = ", ".join(f"{metric.label} {metric.text(metrics[metric.key])}" for metric in measured)
+    where = folder / REPORT if job.config.report.enabled else folder / METRICS_FILE
     return "\n".join(
         [
             f"\n{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
-            *rows,
-            f"  {'in all':<12}{metrics['seconds']:9.1f} s {metrics['peak_gib']:7.2f} GiB",
-            f"held-out: {held_out}" if held_out else "held-out: nothing to compare with",
+            tabulate(rows, tablefmt="plain", colalign=("left", "right", "right"), disable_numparse=True),
+            f"held-out: {held_out}" if held_out else "held-out: not measured",
             f"results: {where}",
         ]
     )

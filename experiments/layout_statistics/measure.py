@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import shapely
+from tabulate import tabulate
 
 from wm.offline.language.grammar import Settings as LanguageSettings
 from wm.offline.language.programme import room_kind_of
@@ -74,9 +75,7 @@ def main() -> None:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)
-    print(" | ".join(rows[0]))
-    for row in rows:
-        print(" | ".join(str(value) for value in row.values()))
+    print(tabulate(rows, "keys", tablefmt="github", disable_numparse=True))
 
 
 if __name__ == "__main__":

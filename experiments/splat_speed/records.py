@@ -6,6 +6,8 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import Literal, TextIO
 
+from tabulate import tabulate
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Record:
@@ -77,10 +79,9 @@ def table(records: Sequence[Record]) -> str:
     for figure in dict.fromkeys(record.figure for record in records):
         mine = {(record.case, record.key): record for record in records if record.figure == figure}
         units = {record.key: record.unit for record in mine.values()}
-        lines = [["", *(f"{key}, {unit}" if unit else key for key, unit in units.items())], ["---"] * (1 + len(units))]
-        for case in dict.fromkeys(case for case, _ in mine):
-            lines.append([case, *(_cell(mine.get((case, key))) for key in units)])
-        tables.append(f"`{figure}`\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n")
+        headings = ["", *(f"{key}, {unit}" if unit else key for key, unit in units.items())]
+        rows = [[case, *(_cell(mine.get((case, key))) for key in units)] for case in dict.fromkeys(case for case, _ in mine)]
+        tables.append(f"`{figure}`\n\n{tabulate(rows, headings, tablefmt='github', disable_numparse=True)}\n")
     return "\n".join(tables)
 
 

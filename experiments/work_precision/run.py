@@ -12,6 +12,8 @@ import importlib
 import pathlib
 import sys
 
+from tabulate import tabulate
+
 HERE = pathlib.Path(__file__).parent
 WORLD = pathlib.Path("outputs/work_precision")
 STUDIES = ("raster", "fit", "raycast", "texture")
@@ -36,8 +38,7 @@ def main() -> None:
     with path.with_suffix(".csv").open("w", newline="") as file:
         csv.writer(file).writerows([columns, *short])
     draw(rows, study.PANELS, path.with_suffix(".png"))
-    for line in (columns, ["---"] * len(columns), *short):
-        print(f"| {' | '.join(line)} |")
+    print(tabulate(short, columns, tablefmt="github", disable_numparse=True))
 
 
 def draw(rows: list[dict], panels: list[tuple[str, str, str]], path: pathlib.Path) -> None:

@@ -1,15 +1,21 @@
 """The report is one self-contained page that shows what it was given."""
 
+import dataclasses
 import html.parser
 
+import jinja2
 import numpy as np
 import pytest
+from markupsafe import escape
 
 from tests.geometry.plans import two_rooms
+from tests.geometry.things import box
+from wm.metric_table import METRICS
 from wm.report import ReportData, SheetRow, render_page, write_video
 from wm.report.paper import PAPER_ROWS, paper_figure
 from wm.report.pictures import depth_error_image
 from wm.report.plots import plot_error_against_time
+from wm.report.templating import fill
 from wm.types import Camera, View
 
 
@@ -69,9 +75,36 @@ def test_the_theme_is_text_and_never_markup():
     assert "a &lt;b&gt;bold&lt;/b&gt; theme &amp; more" in page
 
 
+def test_names_of_rooms_views_and_things_are_text_and_never_markup():
+    evil = "<script>alert('x')</script>"
+    plan = two_rooms()
+    plan = dataclasses.replace(plan, rooms=tuple(dataclasses.replace(room, name=evil) for room in plan.rooms))
+    rows = _data().sheets["Hall"]
+    sheets = {evil: [dataclasses.replace(row, name=evil, note=evil) for row in rows]}
+    views = [dataclasses.replace(view, name=evil) for view in _data().views]
+    thing = box((0, 0, 0.5), (1, 1, 1), label=evil)
+    texts = dict.fromkeys(("scene", "theme", "variant", "preset"), evil)
+    data = _data(plan=plan, sheets=sheets, heroes={evil: _data().heroes["Hall"]}, views=views, objects=[thing], **texts)
+    page = render_page(data)
+    assert "<script" not in page.lower() and "alert('" not in page
+    # title, h1, theme, two facts; rooms, camera and thing of the plan; alt and caption of the hero; heading and rows of the sheet
+    assert page.lower().count("&lt;script&gt;") == 5 + (2 + 1 + 1) + 2 + (1 + 2 * 2)
+    assert not _Tags(page).open
+
+
+def test_a_value_that_a_template_is_not_given_is_an_error():
+    with pytest.raises(jinja2.UndefinedError):
+        fill("page.html")
+
+
 def test_figures_stand_beside_the_papers():
     page = render_page(_data())
     assert "31.23 dB" in page and "0.0123 m" in page and "0.0383 m" in page and "12,345" in page
+
+
+def test_every_metric_is_shown_with_its_definition():
+    page = render_page(_data())
+    assert all(f"<dt>{escape(metric.heading)}</dt><dd>{escape(metric.definition)}</dd>" in page for metric in METRICS.values())
 
 
 @pytest.mark.parametrize("changes", [{"video": None}, {"history": []}, {"sheets": {}, "heroes": {}}, {"metrics": {}}])

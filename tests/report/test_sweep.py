@@ -23,15 +23,25 @@ def rows(table):
 def test_a_row_for_each_variant_and_the_papers_beneath():
     table = rows(sweep_table([run(m_mae=0.02, n_cos=0.9), run("depth_only", m_mae=0.3, n_cos=0.5)]))
     assert list(table) == ["full", "depth_only", "*paper: full*", "*paper: depth_only*"]
-    assert table["full"]["M-MAE ↓"] == "**0.0200**" and table["full"]["N-Cos ↑"] == "**0.9000**"
-    assert table["depth_only"]["M-MAE ↓"] == "0.3000"
-    assert table["full"]["PSNR ↑"] == "–"
-    assert table["*paper: depth_only*"]["M-MAE ↓"] == "0.2777"
+    assert table["full"]["M-MAE (m) ↓"] == "**0.0200**" and table["full"]["N-Cos ↑"] == "**0.9000**"
+    assert table["depth_only"]["M-MAE (m) ↓"] == "0.3000"
+    assert table["full"]["PSNR (dB) ↑"] == "–"
+    assert table["*paper: depth_only*"]["M-MAE (m) ↓"] == "0.2777"
 
 
 def test_seeds_share_a_row_as_mean_and_largest_distance_from_it():
     table = rows(sweep_table([run(seed=k, psnr=psnr) for k, psnr in enumerate((26.0, 28.0, 30.0))]))
-    assert table["full"]["PSNR ↑"] == "28.00 ± 2.00"  # and no bold: it is the only row
+    assert table["full"]["PSNR (dB) ↑"] == "28.00 ± 2.00"  # and no bold: it is the only row
+
+
+def test_values_are_in_the_unit_of_their_heading():
+    table = rows(sweep_table([run(**{"yield": 0.86}), run("depth_only", **{"yield": 0.9})]))
+    assert table["full"]["Yield (%) ↑"] == "86.0" and table["depth_only"]["Yield (%) ↑"] == "**90.0**"
+
+
+def test_nothing_is_best_where_all_are_equal():
+    table = rows(sweep_table([run(atm=1.0), run("depth_only", atm=1.0)]))
+    assert table["full"]["Atm ↓"] == table["depth_only"]["Atm ↓"] == "1.00"
 
 
 def test_what_else_differs_names_the_row():
@@ -64,7 +74,7 @@ def test_the_command_reads_run_folders(tmp_path, monkeypatch, capsys):
         (folder / "metrics.json").write_text(json.dumps(one.metrics))
     monkeypatch.setattr(sys, "argv", ["sweep", str(tmp_path)])
     sweep.main()
-    assert rows(capsys.readouterr().out)["full"]["PSNR ↑"] == "25.50 ± 0.50"
+    assert rows(capsys.readouterr().out)["full"]["PSNR (dB) ↑"] == "25.50 ± 0.50"
     assert len(read_runs([tmp_path / "full/0"])) == 1
     (tmp_path / "other").mkdir()
     (tmp_path / "other/metrics.json").write_text("{}")  # somebody else's

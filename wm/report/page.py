@@ -1,19 +1,17 @@
-"""`report.html`: one self-contained page that shows what a run made and how good it is."""
+"""`report.html`: one self-contained page with what a run made and its metrics."""
 
-import base64
 import dataclasses
-import html
-import importlib.resources
-import string
 from collections.abc import Sequence
 
 import numpy as np
 
 from wm.geometry import FloorPlan
-from wm.report.floorplan import camera_legend, draw_floorplan
+from wm.metric_table import METRICS, Metric
+from wm.report.floorplan import CAMERA_COLOURS, draw_floorplan
 from wm.report.paper import paper_figure
-from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image
+from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image, media_uri
 from wm.report.plots import plot_error_against_time, plot_stages
+from wm.report.templating import fill
 from wm.types import SceneObject, View
 
 THUMBNAIL = 400
@@ -25,7 +23,7 @@ class SheetRow:
     """One view in the contact sheet."""
 
     name: str
-    note: str  # recall and attempts, say
+    note: str  # edge recall, attempts and style reference, in words
     condition: np.ndarray  # [h, w, 3]
     generated: np.ndarray  # [h, w, 3]
     splats: np.ndarray  # [h, w, 3]
@@ -53,90 +51,34 @@ class ReportData:
     video: bytes | None
 
 
-_ROWS = [
-    ("psnr", "PSNR", "{:.2f} dB", "held-out views against the world", "up"),
-    ("ssim", "SSIM", "{:.4f}", "", "up"),
-    ("m_mae", "M-MAE", "{:.4f} m", "splat depth against the scaffold", "down"),
-    ("m_rmse", "M-RMSE", "{:.4f} m", "", "down"),
-    ("n_cos", "N-Cos", "{:.4f}", "splat normals against the scaffold", "up"),
-    ("n_ang_deg", "N-Ang", "{:.2f}°", "", "down"),
-    ("reproj_mae_norm", "Reproj. MAE-norm", "{:.4f}", "depth of one view moved into another", "down"),
-    ("reproj_absrel", "Reproj. AbsRel", "{:.4f}", "", "down"),
-    ("holes", "Holes", "{:.2%}", "share of pixels that see through a surface", "down"),
-    ("navigability", "Navigability", "{:.1%}", "largest connected share of free floor", "up"),
-    ("navigability_body", "Navigability, 0.25 m body", "{:.1%}", "", "up"),
-    ("coverage_1", "Surface seen once", "{:.1%}", "share of reachable surface", "up"),
-    ("coverage_3", "Surface seen three times", "{:.1%}", "", "up"),
-    ("yield", "Yield", "{:.1%}", "planned views that were accepted", "up"),
-    ("atm", "Attempts a view", "{:.2f}", "", "down"),
-    ("rooms", "Rooms", "{}", "", ""),
-    ("views", "Views", "{}", "", ""),
-    ("gaussians", "Gaussians", "{:,}", "", ""),
-    ("seconds", "Time", "{:.0f} s", "this machine, all stages", "down"),
-    ("peak_gib", "Peak memory", "{:.2f} GiB", "", "down"),
-]
-
-
 def render_page(data: ReportData) -> str:
-    """The whole page as HTML text; it loads nothing from anywhere."""
-    pick = {
-        "title": html.escape(data.scene.replace("_", " ")),
-        "theme": html.escape(data.theme),
-        "facts": html.escape(f"variant {data.variant} · preset {data.preset} · seed {data.seed}"),
-        "video": _video(data.video),
-        "heroes": "".join(_hero(name, image) for name, image in data.heroes.items()),
-        "plan": draw_floorplan(data.plan, data.objects, data.views),
-        "legend": camera_legend(),
-        "metrics": "".join(_metric_row(data, *row) for row in _ROWS),
-        "curve": plot_error_against_time(data.history) or "<p>No held-out evaluation was asked for.</p>",
-        "stages": plot_stages(data.timings),
-        "sheets": "".join(_sheet(name, rows) for name, rows in data.sheets.items()),
-        "range": f"{DEPTH_ERROR_RANGE * 100:.0f}",
-    }
-    template = importlib.resources.files("wm.report").joinpath("template.html").read_text(encoding="utf-8")
-    return string.Template(template).substitute(pick)
-
-
-def _video(video: bytes | None) -> str:
-    if not video:
-        return ""
-    uri = "data:video/mp4;base64," + base64.b64encode(video).decode()
-    return f'<video controls muted loop autoplay playsinline src="{uri}"></video>'
+    """The page as HTML text. It loads nothing from elsewhere: pictures and video are part of it."""
+    return fill(
+        "page.html",
+        data=data,
+        title=data.scene.replace("_", " "),
+        video=data.video and media_uri(data.video, "video/mp4"),
+        heroes=[{"title": _title(room), "image": data_uri(image, max_width=HERO)} for room, image in data.heroes.items()],
+        plan=draw_floorplan(data.plan, data.objects, data.views),
+        cameras=CAMERA_COLOURS,
+        metrics=[_metric_row(data, metric) for metric in METRICS.values()],
+        curve=plot_error_against_time(data.history),
+        stages=plot_stages(data.timings),
+        sheets=[{"title": _title(room), "rows": [_sheet_row(row) for row in rows]} for room, rows in data.sheets.items()],
+        depth_error_cm=f"{DEPTH_ERROR_RANGE * 100:.0f}",
+    )
 
 
 def _title(room: str) -> str:
-    return html.escape(room.replace("_", " ").capitalize())
+    return room.replace("_", " ").capitalize()
 
 
-def _hero(name: str, image: np.ndarray) -> str:
-    picture = f'<img loading="lazy" src="{data_uri(image, max_width=HERO)}">'
-    return f"<figure>{picture}<figcaption>{_title(name)}</figcaption></figure>"
+def _metric_row(data: ReportData, metric: Metric) -> dict:
+    ours, paper = data.metrics.get(metric.key), paper_figure(data.variant, metric.key)
+    return {"metric": metric, "ours": metric.text(ours), "paper": metric.text(paper)}
 
 
-def _metric_row(data: ReportData, key: str, label: str, form: str, meaning: str, better: str) -> str:
-    value = data.metrics.get(key)
-    theirs = paper_figure(data.variant, key)
-    arrow = {"up": " ↑", "down": " ↓"}.get(better, "")
-    cells = [
-        f"<td>{label}{arrow}<small>{meaning}</small></td>",
-        f"<td class='n'>{'–' if value is None else form.format(value)}</td>",
-        f"<td class='n'>{'–' if theirs is None else form.format(theirs)}</td>",
-    ]
-    return f"<tr>{''.join(cells)}</tr>"
-
-
-def _sheet(name: str, rows: list[SheetRow]) -> str:
-    def cell(image: np.ndarray) -> str:
-        return f'<td><img loading="lazy" src="{data_uri(image, max_width=THUMBNAIL)}"></td>'
-
-    body = "".join(
-        "<tr>"
-        + cell(row.condition)
-        + cell(row.generated)
-        + cell(row.splats)
-        + cell(depth_error_image(row.splat_depth, row.scaffold_depth))
-        + f"</tr><tr class='cap'><td colspan='4'>{html.escape(row.name)} · {html.escape(row.note)}</td></tr>"
-        for row in rows
-    )
-    head = "<tr><th>condition</th><th>generated</th><th>splat render</th><th>depth error</th></tr>"
-    return f"<h3>{_title(name)}</h3><table class='sheet'>{head}{body}</table>"
+def _sheet_row(row: SheetRow) -> dict:
+    error = depth_error_image(row.splat_depth, row.scaffold_depth)
+    images = [data_uri(image, max_width=THUMBNAIL) for image in (row.condition, row.generated, row.splats, error)]
+    return {"images": images, "caption": f"{row.name} · {row.note}"}

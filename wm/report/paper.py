@@ -1,9 +1,13 @@
-"""The paper's own figures, to stand beside ours (worldmesh.tex: the ablation table, the scaling table, "Navigability")."""
+"""The paper's own figures beside ours (worldmesh.tex: the ablation table, the scaling table, "Navigability").
 
-_KEYS = ("reproj_mae_norm", "reproj_absrel", "m_mae", "m_rmse", "n_cos", "n_ang_deg")
+They go by the keys of `wm.metric_table`, in its units: metres, degrees, seconds, and shares from 0 to 1.
+"""
+
+PAPER_COLUMNS = ("reproj_mae_norm", "reproj_absrel", "m_mae", "m_rmse", "n_cos", "n_ang_deg")
+"""The columns of the paper's ablation table."""
 
 PAPER_ROWS: dict[str, dict[str, float]] = {
-    variant: dict(zip(_KEYS, values))
+    variant: dict(zip(PAPER_COLUMNS, values))
     for variant, values in {
         "full": (0.1615, 0.0761, 0.0383, 0.1285, 0.6893, 39.26),
         "depth_objects": (0.2229, 0.0997, 0.1167, 0.2485, 0.4033, 62.01),

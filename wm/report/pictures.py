@@ -11,11 +11,11 @@ from PIL import Image
 from wm.codecs import to_bytes
 
 DEPTH_ERROR_RANGE = 0.10
-"""Metres at which the colour of a depth error saturates."""
+"""Depth error, in metres, at which the colour saturates."""
 
 
 def depth_error_image(ours: Float[np.ndarray, "h w"], scaffold: Float[np.ndarray, "h w"]) -> UInt8[np.ndarray, "h w 3"]:
-    """|ours - scaffold| from dark (0) to bright (DEPTH_ERROR_RANGE or more); grey where the scaffold is not hit."""
+    """|ours - scaffold| as a colour, from dark (0) to bright (DEPTH_ERROR_RANGE or more); grey where the scaffold is not hit."""
     error = np.clip(np.abs(ours - scaffold) / DEPTH_ERROR_RANGE, 0, 1)
     colours = matplotlib.colormaps["inferno"](error)[..., :3]
     return to_bytes(np.where((scaffold > 0)[..., None], colours, 0.5))
@@ -28,4 +28,9 @@ def data_uri(rgb: Num[np.ndarray, "h w 3"], *, max_width: int, quality: int = 82
         image = image.resize((max_width, round(image.height * max_width / image.width)), Image.Resampling.LANCZOS)
     buffer = io.BytesIO()
     image.save(buffer, format="JPEG", quality=quality)
-    return "data:image/jpeg;base64," + base64.b64encode(buffer.getvalue()).decode()
+    return media_uri(buffer.getvalue(), "image/jpeg")
+
+
+def media_uri(data: bytes, kind: str) -> str:
+    """Data of a media type ("video/mp4") as a data URI."""
+    return f"data:{kind};base64,{base64.b64encode(data).decode()}"

@@ -1,56 +1,58 @@
-"""Figures of the report as inline SVG: held-out error against wall-clock, time and memory of the stages."""
+"""Plots of the report as inline SVG: held-out error against time, and time and memory of the stages."""
 
 import io
 from collections.abc import Sequence
 
 import matplotlib
+from markupsafe import Markup
 
 matplotlib.use("Agg")
 
 from matplotlib.figure import Figure
 
+from wm.metric_table import METRICS
+
+CURVES = {"psnr": "linear", "m_mae": "log", "n_ang_deg": "linear"}
+"""Metrics that are drawn against the time of the fit, with the scale of their axes."""
 INK = "#30638e"
 SECOND = "#d1495b"
 
 
-def plot_error_against_time(history: Sequence[dict]) -> str:
-    """Held-out PSNR and depth error over the seconds of the fit.
+def plot_error_against_time(history: Sequence[dict]) -> Markup:
+    """Held-out error against the wall-clock time of the fit.
 
     Args:
-      history: rows with `seconds` and any of `psnr` (dB), `m_mae` (m), `n_ang_deg` (degrees), in order.
+      history: rows with `seconds` and any keys of CURVES, in order.
+
+    Returns:
+      A panel for each metric that was measured; nothing if none was.
     """
-    panels = [
-        ("psnr", "held-out PSNR / dB", False),
-        ("m_mae", "depth error M-MAE / m", True),
-        ("n_ang_deg", "normal error N-Ang / deg", False),
-    ]
-    panels = [panel for panel in panels if any(row.get(panel[0]) is not None for row in history)]
+    panels = [key for key in CURVES if any(row.get(key) is not None for row in history)]
     if not panels:
-        return ""
-    figure = _figure(3.6 * len(panels), 2.6)
-    for k, (key, label, logarithmic) in enumerate(panels):
+        return Markup()
+    figure = _figure(7.2, 1.7 * len(panels) + 0.3)
+    for k, key in enumerate(panels):
         rows = [row for row in history if row.get(key) is not None]
-        axes = figure.add_subplot(1, len(panels), k + 1)
+        axes = figure.add_subplot(len(panels), 1, k + 1)
         axes.plot([row["seconds"] for row in rows], [row[key] for row in rows], "o-", color=INK, markersize=4)
-        if logarithmic:
-            axes.set_yscale("log")
-        axes.set_xlabel("seconds of the fit")
-        axes.set_title(label, fontsize=9)
-        axes.grid(alpha=0.25)
+        axes.set_yscale(CURVES[key])
+        axes.set_title(f"held-out {METRICS[key].heading}", fontsize=9)
+        axes.grid(alpha=0.25, which="both")
+    figure.axes[-1].set_xlabel("time of the fit (s)")
     return _svg(figure)
 
 
-def plot_stages(timings: dict[str, dict[str, float]]) -> str:
+def plot_stages(timings: dict[str, dict[str, float]]) -> Markup:
     """Seconds and peak memory of each stage, as bars."""
     names = list(timings)
     figure = _figure(7.2, 0.34 * len(names) + 0.8)
-    for k, (key, label, colour) in enumerate((("seconds", "seconds", INK), ("peak_gib", "peak memory / GiB", SECOND))):
+    for k, (key, colour) in enumerate((("seconds", INK), ("peak_gib", SECOND))):
         axes = figure.add_subplot(1, 2, k + 1)
         bars = axes.barh(names, [timings[name][key] for name in names], color=colour)
         axes.bar_label(bars, fmt="%.1f", fontsize=7, padding=2)
         axes.invert_yaxis()
         axes.margins(x=0.18)
-        axes.set_xlabel(label)
+        axes.set_xlabel(METRICS[key].heading)
         if k:
             axes.set_yticklabels([])
     return _svg(figure)
@@ -60,8 +62,8 @@ def _figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def _svg(figure: Figure) -> str:
+def _svg(figure: Figure) -> Markup:
     buffer = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": "wm", "font.size": 8}):
         figure.savefig(buffer, format="svg", metadata={"Date": None}, transparent=True)
-    return buffer.getvalue()[buffer.getvalue().index("<svg") :]
+    return Markup(buffer.getvalue()[buffer.getvalue().index("<svg") :])

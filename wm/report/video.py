@@ -8,21 +8,22 @@ import imageio_ffmpeg
 import numpy as np
 
 CRF = 23
+"""Constant rate factor of x264, its default: lower is better and larger."""
 
 
 def write_video(path: pathlib.Path, frames: Iterable[np.ndarray], *, fps: int) -> int:
     """Encodes frames to an MP4 that browsers play; equal frames give equal bytes.
 
     Args:
-      path: the file; written in place, so give a temporary name and rename it.
-      frames: uint8 [h, w, 3], all of one size; odd sizes are cropped to even ones (4:2:0 needs them).
-      fps: frames a second.
+      path: the file. It is written in place, so give a temporary name and rename it afterwards.
+      frames: uint8 [h, w, 3], all of one size. An odd size is cropped by one pixel, since 4:2:0 needs even ones.
+      fps: frames per second.
 
     Returns:
-      How many frames were written; with none, no file is made.
+      The number of frames written; without frames no file is made.
 
     Raises:
-      RuntimeError: ffmpeg failed; the message holds what it said.
+      RuntimeError: ffmpeg failed; the message includes its output.
     """
     count = 0
     encoder = None
@@ -34,7 +35,7 @@ def write_video(path: pathlib.Path, frames: Iterable[np.ndarray], *, fps: int) -
             encoder.stdin.write(np.ascontiguousarray(frame[:height, :width]).tobytes())
             count += 1
     except BrokenPipeError:
-        pass  # ffmpeg has ended early: what it said follows
+        pass  # ffmpeg has ended early: its return code and output are read below
     except BaseException:
         if encoder is not None:
             encoder.kill()
@@ -51,5 +52,5 @@ def _start(path: pathlib.Path, width: int, height: int, fps: int) -> subprocess.
     raw = f"-f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {fps} -i -"
     coded = f"-c:v libx264 -crf {CRF} -preset veryfast -pix_fmt yuv420p -movflags +faststart -threads 2 -bitexact"
     command = [imageio_ffmpeg.get_ffmpeg_exe(), *f"-y -loglevel error {raw} {coded} -f mp4".split(), str(path)]
-    # A session of its own: Ctrl-C is for this process, which then ends the encoder itself.
+    # A session of its own, so that Ctrl-C interrupts this process alone, which then ends the encoder itself.
     return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)

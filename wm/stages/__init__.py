@@ -1,1 +1,1 @@
-"""The stages of a run, each a function of the job and of what came before it."""
+"""The stages of a run: each is a function of the run's context and of the results of the stages before it."""

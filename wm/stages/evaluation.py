@@ -1,4 +1,4 @@
-"""Evaluate: the metrics of design.md section 6, on views that were never trained on."""
+"""Stage `evaluate`: the metrics of `wm.metric_table`, measured on held-out views."""
 
 import dataclasses
 import itertools
@@ -26,18 +26,18 @@ from wm.types import OUTSIDE, GBuffer, Render, SurfaceKind, View
 
 _ssim = jax.jit(ssim)
 
-EVALUATION, METRICS = "stages/evaluation.json", "metrics.json"
+EVALUATION = "stages/evaluation.json"
 GLIMPSE = 1 / 4
-"""Resolution at which a frame of the fly-through asks the scaffold what stands in its way."""
+"""Share of the resolution at which the scaffold is cast for a frame of the fly-through."""
 HOLE = 0.5
-"""Opacity below which a pixel that should show a surface shows a hole in it."""
+"""Opacity below which a pixel that hits the scaffold counts as a hole."""
 SPARSE = 2
-"""Every so many rows and columns of a view are moved into another to compare their depths."""
+"""Stride, in rows and columns, of the pixels that are moved from one view into another to compare depths."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Seen:
-    """A view of the fitted scene beside the scaffold; 8-bit colour."""
+    """A view of the splats, and the scaffold from the same camera."""
 
     view: View
     render: Render
@@ -45,7 +45,7 @@ class Seen:
 
 
 def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, heldout: HeldOut) -> dict:
-    """The run's metrics but for its time and memory."""
+    """The metrics of the run by key, without its time and memory. A metric that no view could measure may be missing."""
     with job.stage("evaluate"):
         config = job.config
         key = job.key("evaluate", result.key, config.evaluate, config.navigation)
@@ -58,7 +58,7 @@ def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, h
 
 
 def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
-    """A view of the splats and of the scaffold."""
+    """Renders the splats and casts the scaffold from a view."""
     gbuffer = cast(scene.rays, view.camera)
     rooms = np.flatnonzero(visible_rooms(scene.plan, scene.mesh, [view])[0])
     render = renderer.render(view.camera, [int(room) for room in rooms], gbuffer.depth)
@@ -66,20 +66,20 @@ def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
 
 
 def glimpse(scene: Scene, renderer: SceneRenderer, view: View) -> Render:
-    """A view of the splats alone. Which rooms it sees and what stands in the way is asked of the scaffold at a quarter of the
-    resolution, so a room of which less than a few pixels show may be missing."""
+    """Renders the splats alone. Which rooms the view sees, and what hides them, comes from the scaffold cast at a quarter of the
+    resolution, so a room that shows in only a few pixels may be missing."""
     gbuffer = cast(scene.rays, scale_camera(view.camera, GLIMPSE))
     rooms = np.unique(scene.mesh.face_room[gbuffer.face[gbuffer.hit]])
     return renderer.render(view.camera, [int(room) for room in rooms if room != OUTSIDE], gbuffer.depth)
 
 
 def look_all(scene: Scene, renderer: SceneRenderer, views: Sequence[View]) -> Iterator[Seen]:
-    """Every view in order, on every core."""
+    """`look` at every view, in order, with one thread per core."""
     return in_order(lambda view: look(scene, renderer, view), views)
 
 
 def stored_render(job: Job, view: View) -> np.ndarray:
-    """[h, w, 3] uint8: the splats from a held-out view, as `evaluate` stored them."""
+    """[h, w, 3] uint8: the render of a held-out view that `evaluate` has stored."""
     return codecs.decode_png((job.folder.path / _picture(view)).read_bytes())
 
 
@@ -122,8 +122,8 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: He
                 seen.append(one)
                 bar.update()
             rows += _reprojection(seen, job.config.evaluate.min_overlap)
-    names = ("psnr", "ssim", "m_mae", "m_rmse", "n_cos", "n_ang_deg", "reproj_mae_norm", "reproj_absrel", "holes")
-    return {name: _mean([row[name] for row in rows if name in row]) for name in names}
+    measured = {name for row in rows for name in row}
+    return {name: _mean([row[name] for row in rows if name in row]) for name in measured}
 
 
 def _photometry(rgb: np.ndarray, truth: np.ndarray) -> dict[str, float]:
@@ -140,12 +140,12 @@ def _alignment(scene: Scene, seen: Seen) -> dict[str, float]:
 
 
 def _share(what: np.ndarray, where: np.ndarray) -> float:
-    """Share of the pixels `where` that are `what`; NaN where there are none."""
+    """Share of the pixels in `where` that are in `what`; NaN if `where` is empty."""
     return float(what[where].mean()) if where.any() else float("nan")
 
 
 def _surface_of(scene: Scene, gbuffer: GBuffer) -> np.ndarray:
-    """[h, w] one number per object, and per kind and room of the structure; -1 where nothing is hit."""
+    """[h, w] a number for each object and for each surface kind of each room; -1 where nothing is hit."""
     mesh = scene.mesh
     structure = (mesh.face_room + 1) * len(SurfaceKind) + mesh.face_kind
     group = np.where(mesh.face_object >= 0, mesh.face_object + int(structure.max(initial=0)) + 1, structure)
@@ -153,14 +153,14 @@ def _surface_of(scene: Scene, gbuffer: GBuffer) -> np.ndarray:
 
 
 def _reprojection(seen: Sequence[Seen], min_overlap: float) -> Iterator[dict[str, float]]:
-    """Both ways of every pair of a room's views that share enough surface."""
+    """Reprojection errors, in both directions, of every pair of a room's views that share enough surface."""
     pairs = itertools.combinations(seen, 2)
     for rows in in_order(lambda pair: _pair(*pair, min_overlap), pairs):
         yield from rows
 
 
 def _pair(a: Seen, b: Seen, min_overlap: float) -> list[dict[str, float]]:
-    """A quarter of the pixels of one view are looked for in the other: means over them are the same to a part in a thousand."""
+    """Both directions of one pair. A quarter of the pixels is moved: it changes the means by less than one part in a thousand."""
     ways = ((a, b), (b, a))
     sparse = [every(SPARSE, i.gbuffer.depth, i.view.camera) for i, _ in ways]
     shared = [shared_pixels(*some, j.gbuffer.depth, j.view.camera) for some, (_, j) in zip(sparse, ways)]

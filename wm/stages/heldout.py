@@ -1,4 +1,4 @@
-"""The truth of the held-out views: what the world would show there, where the image backend knows."""
+"""Stage `heldout`: the true image of each held-out view, where the image backend knows its world."""
 
 import dataclasses
 
@@ -16,19 +16,19 @@ from wm.types import View
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class HeldOut:
-    """The way to each truth in the run folder."""
+    """Where the true images are in the run folder."""
 
     known: bool  # whether the image backend knows its world
     key: str
     job: Job
 
     def truth(self, view: View) -> np.ndarray:
-        """[h, w, 3] uint8."""
+        """[h, w, 3] uint8: the true image of a held-out view."""
         return codecs.decode_png((self.job.folder.path / _file(view)).read_bytes())
 
 
 def render_heldout(job: Job, scene: Scene, image: ImageBackend) -> HeldOut:
-    """The truths of all held-out views, stored; a real image model has none."""
+    """Stores the true images of all held-out views. Only a `WorldBackend` has any; a real image model has none."""
     config = job.config
     key = job.key("heldout", scene.key, config.scene.theme, config.cameras, *backend_key(config.image))
     if not isinstance(image, WorldBackend):

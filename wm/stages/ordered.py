@@ -1,4 +1,4 @@
-"""Work on many things at once, results in order."""
+"""A parallel map over threads that yields its results in order."""
 
 import collections
 from collections.abc import Callable, Iterable, Iterator
@@ -11,11 +11,11 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 AHEAD = 2
-"""Results a core may be ahead of the one that is awaited: bounds memory, and keeps all of them busy."""
+"""Results per core that may be pending: enough to keep every core busy, and few enough to bound memory."""
 
 
 def in_order(work: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[Result]:
-    """`work(item)` for every item, in the items' order, on one thread per core."""
+    """`work(item)` for every item, in the order of the items, with one thread per core."""
     pending: collections.deque[Future[Result]] = collections.deque()
     with ThreadPoolExecutor(cores(), thread_name_prefix="wm-ordered") as pool:
         try:

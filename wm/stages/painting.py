@@ -1,4 +1,4 @@
-"""Paint: every view of the scene, each an entry of its own, so that a killed run goes on at the next view."""
+"""Stage `paint`: an image for every view. Each is an entry of the run folder, so a killed run resumes at the next view."""
 
 import dataclasses
 import functools
@@ -28,7 +28,7 @@ SUMMARY = "stages/paint.json"
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Painted:
-    """What the painting left: how it went, the key of its result, and the way back to each view."""
+    """The result of the painting: its yield and attempts, its key, and access to each stored view."""
 
     yield_share: float
     atm: float | None
@@ -36,28 +36,28 @@ class Painted:
     job: Job
 
     def view(self, view: View) -> PaintedView:
-        """A finished view from the run folder."""
+        """A finished view, read from the run folder."""
         return read_view(self.job, view)
 
     def picture(self, view: View) -> tuple[np.ndarray, np.ndarray]:
-        """Of a finished view only the image [h, w, 3] uint8 and its usable pixels [h, w] bool."""
+        """Only the image [h, w, 3] uint8 of a finished view and its usable pixels [h, w] bool."""
         return _read_picture(self.job, view)
 
 
 def paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
-    """All views painted and stored, and the textured scaffold exported."""
+    """Paints and stores all views, and exports the textured scaffold."""
     with job.stage("paint"):
         return _paint(job, scene, image, depth)
 
 
 def is_painted(job: Job, scene: Scene) -> bool:
-    """Whether the run folder holds every view and the scaffold with their texture."""
+    """Whether the run folder holds every painted view and the textured scaffold."""
     key = paint_key(job, scene)
     return all(job.folder.has(name, key) for name in ("paint", *map(_entry, scene.views)))
 
 
 def paint_key(job: Job, scene: Scene) -> str:
-    """The key of all that painting leaves."""
+    """The key of every entry of the painting."""
     config = job.config
     shown = (config.cameras, config.texture, config.condition, config.verify)
     return job.key("paint", scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
@@ -100,7 +100,7 @@ def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> 
 
 
 def read_view(job: Job, view: View) -> PaintedView:
-    """A stored view."""
+    """Reads a stored view."""
     base = job.folder.path / "views"
     record = json.loads((base / f"{view.name}.json").read_text())["painted"]
     rgb, mask = _read_picture(job, view)
@@ -129,7 +129,10 @@ def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView, d
 
 
 def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:
-    """The scaffold that the image model is shown: the true one, with boxes, or bare (paper, ablation of the modalities)."""
+    """The scaffold that the image model is shown: the true one, one with boxes for objects, or one without objects.
+
+    Source: WorldMesh, the ablation of the conditioning modalities.
+    """
     if objects == "textured" or not scene.objects:
         return scaffold
     shown: tuple[SceneObject, ...] = object_boxes(scene.objects) if objects == "boxes" else ()
@@ -137,7 +140,7 @@ def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:
 
 
 def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
-    """The words for a view, by the view and whether a style reference goes with it."""
+    """A function that returns the prompt of a view, given the view and whether it has a style reference."""
     sites = functools.cache(functools.partial(room_site, scene.plan))
 
     def prompt(view: View, has_reference: bool) -> str:
@@ -149,7 +152,7 @@ def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
 
 
 def _export(job: Job, scene: Scene, result: PaintSummary, key: str) -> None:
-    """`scaffold.glb`: the structure with the texture that the views left on it, and every object as a node of its own."""
+    """Writes `scaffold.glb`: the structure with its painted texture, and every object as a node of its own."""
     nodes = [*atlas_nodes(result.atlas, scene.context.structure), *object_nodes(scene.objects)]
     job.folder.save(
         "paint",

@@ -1,4 +1,4 @@
-"""Report: metrics.json, the fly-through and report.html."""
+"""Stage `report`: `metrics.json`, the fly-through and `report.html`."""
 
 import dataclasses
 from collections.abc import Iterator
@@ -9,9 +9,10 @@ from wm.artifacts import json_text
 from wm.codecs import to_bytes
 from wm.geometry import cast, walkthrough
 from wm.geometry.rays.pinhole import scale_camera
+from wm.metric_table import METRICS
 from wm.report import ReportData, SheetRow, render_page, write_video
 from wm.splat.optimization.curve import HELDOUT
-from wm.stages.evaluation import GLIMPSE, METRICS, Seen, glimpse, look_all, stored_render
+from wm.stages.evaluation import GLIMPSE, Seen, glimpse, look_all, stored_render
 from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
@@ -19,13 +20,13 @@ from wm.stages.reconstruction import Reconstruction
 from wm.stages.scene import Scene
 from wm.types import OUTSIDE, View
 
-VIDEO, REPORT = "flythrough.mp4", "report.html"
+VIDEO, REPORT, METRICS_FILE = "flythrough.mp4", "report.html", "metrics.json"
 SHEET_KINDS = ("bootstrap", "perimeter", "overhead", "doorway")
-"""The contact sheet shows one view of each kind a room."""
+"""Kinds of views in the contact sheet: for each room it shows one view of each kind."""
 ENOUGH = 0.05
-"""Share of a picture beyond which one thing counts no more: a close-up of a wardrobe is no picture of a bedroom."""
+"""Largest share of a picture that one object counts for, since a close-up of a wardrobe does not show the bedroom."""
 FARTHER = 1e-3
-"""What a metre of median depth counts beside that."""
+"""Score of a metre of median depth, beside those shares."""
 
 
 def report(job: Job, scene: Scene, painted: Painted, result: Reconstruction, metrics: dict) -> dict:
@@ -34,9 +35,9 @@ def report(job: Job, scene: Scene, painted: Painted, result: Reconstruction, met
     with job.stage("report"):
         if job.config.report.enabled:
             page = _page(job, scene, painted, result)
-    # Only now are the stages' times complete.
-    complete = metrics | {"seconds": job.meter.seconds, "peak_gib": job.meter.peak_gib}
-    job.folder.write(METRICS, json_text(complete))
+    # The times of the stages are complete only now. A metric that was not measured becomes null.
+    complete = dict.fromkeys(METRICS) | metrics | {"seconds": job.meter.seconds, "peak_gib": job.meter.peak_gib}
+    job.folder.write(METRICS_FILE, json_text(complete))
     if page is not None:
         job.folder.write(REPORT, render_page(dataclasses.replace(page, metrics=complete, timings=job.meter.stages)))
     return complete
@@ -107,7 +108,7 @@ def _sheet_row(painted: Painted, seen: Seen) -> SheetRow:
 
 
 def _heroes(job: Job, scene: Scene) -> dict[str, np.ndarray]:
-    """One held-out render a room, as the evaluation stored it: the view that shows most of what is in the room."""
+    """For each room the stored render of the held-out view that shows most of its objects."""
     heroes = {}
     for index, room in enumerate(scene.rooms):
         members = [view for view in scene.heldout if view.room == index]
@@ -117,8 +118,11 @@ def _heroes(job: Job, scene: Scene) -> dict[str, np.ndarray]:
 
 
 def showing(scene: Scene, view: View) -> float:
-    """How much of its room a view shows, 0 to 1: the share of the picture that its things fill, each up to ENOUGH of it, less
-    the more it looks up or down (nothing at 45 degrees). Between views without things, the one that sees farther."""
+    """A score of how much a view shows of its room.
+
+    It is the sum over the room's objects of the share of the picture that each fills, at most ENOUGH for each. The sum falls the
+    more the view looks up or down, to 0 at 45 degrees. FARTHER times the median depth decides between views without objects.
+    """
     gbuffer = cast(scene.rays, scale_camera(view.camera, GLIMPSE))
     face = gbuffer.face[gbuffer.hit]
     own = face[(scene.mesh.face_room[face] == view.room) & (scene.mesh.face_object[face] != OUTSIDE)]
@@ -129,9 +133,9 @@ def showing(scene: Scene, view: View) -> float:
 
 
 def _scene_curve(history: tuple[dict, ...]) -> list[dict]:
-    """The rooms' curves as one: at each time a room was measured, the mean over rooms of their latest error.
+    """One curve for all rooms: at each time at which a room was measured, the mean over the rooms of their latest errors.
 
-    It starts once every room has been measured.
+    It starts when every room has been measured once.
     """
     latest: dict[int, dict] = {}
     curve = []

@@ -1,4 +1,4 @@
-"""Plan, structure, furniture and cameras: everything that is fixed before anything is painted."""
+"""Stages `plan`, `structure`, `furnish` and `cameras`: everything that is fixed before the first view is painted."""
 
 import dataclasses
 import json
@@ -49,7 +49,7 @@ class Scene:
 
 
 def build_scene(job: Job) -> Scene:
-    """The scene of a run, from its folder where it is there already."""
+    """Builds the scene of a run. What the run folder already holds is read from there."""
     with job.stage("plan"):
         plan, plan_key = _plan(job)
     with job.stage("structure"):
@@ -80,7 +80,7 @@ def _plan(job: Job) -> tuple[FloorPlan, str]:
             )
             plan = proposal.plan
             layout = {"source": config.language.backend, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}
-        # How long the layout took is not part of the plan's entry: equal runs have equal manifests.
+        # The time that the layout took is not part of the plan's entry, so that equal runs have equal manifests.
         job.folder.write(LAYOUT, json_text(layout))
         job.folder.save("plan", key, {PLAN: plan_to_json(plan)})
     return parse_plan((job.folder.path / PLAN).read_text(), PLAN), key

@@ -1,8 +1,8 @@
-"""Where the fit of a room starts: gaussians on all its surface that anyone may see, also where none of its own views looks.
+"""The initial gaussians of a room: on all of its surface that can be seen from somewhere, also where none of its own views looks.
 
-What the room's views show makes the cloud. Exposed surface that they leave bare (wm.geometry.cameras.exposed_surface) is covered
-too: in the colours that views from other rooms show of it through the doors, else in those of the surface nearest to it. No view
-of the room corrects these gaussians, so they keep them.
+Most lie on the surface that the room's own views show. Exposed surface that these views miss is covered as well
+(wm.geometry.cameras.exposed_surface), in colours from the views of other rooms that see it through the doors, or else from the
+nearest covered surface. No view of the room trains these gaussians, so they keep their colours.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -21,7 +21,7 @@ from wm.stages.scene import Scene
 from wm.types import OUTSIDE, Gaussians, View
 
 Picture = Callable[[View], tuple[np.ndarray, np.ndarray]]
-"""From a view its image [h, w, 3] uint8 and its usable pixels [h, w] bool."""
+"""Returns the image [h, w, 3] uint8 of a view and its usable pixels [h, w] bool."""
 
 
 def starting_gaussians(
@@ -37,10 +37,10 @@ def starting_gaussians(
     """The initial gaussians of a room.
 
     Args:
-        views: the room's own.
-        picture: the images of the views of other rooms, asked for one at a time; None: they are not painted yet.
-        cameras: the heights at which eyes may be.
-        rng: as for `initial_gaussians`.
+        views: the training views of the room.
+        picture: reads the image of a view of another room; None if the views are not painted yet.
+        cameras: gives the heights at which eyes may be.
+        rng: see `initial_gaussians`.
     """
 
     def complete(cloud: Cloud) -> Cloud:
@@ -53,10 +53,10 @@ def starting_gaussians(
 
 
 def _bare(scene: Scene, room: int, cloud: Cloud, cameras: CameraSettings, settings: FitSettings) -> SurfacePoints:
-    """Exposed points of the room's surface, one in every cell that the cloud leaves empty."""
+    """Exposed points of the room's surface: one in every cell that the cloud leaves empty."""
     points = room_surface(scene.mesh, room, spacing=settings.spacing, detail_spacing=settings.detail_spacing)
     points = some_points(points, vacant(cloud, points.position, points.normal, _spacings(scene, points, settings)))
-    # exposed ones first: a cell may hold a layer that is hidden under another
+    # Exposed points are selected before cells are, since a cell may also contain a layer that another one hides.
     points = some_points(points, exposed(scene.rays, points, room_eyes(scene.plan, scene.rays, room, cameras)))
     return some_points(points, one_a_cell(points.position, points.normal, _spacings(scene, points, settings)))
 
@@ -66,7 +66,7 @@ def _spacings(scene: Scene, points: SurfacePoints, settings: FitSettings) -> Flo
 
 
 def _shown(scene: Scene, room: int, points: SurfacePoints, picture: Picture) -> Float[np.ndarray, "p 3"]:
-    """The mean colour in which the other rooms' views show each point; NaN where none does."""
+    """The mean colour of each point in the views of other rooms that show it; NaN where none does."""
     total, times = np.zeros((len(points.face), 3)), np.zeros((len(points.face), 1))
     for view in _onlookers(scene, room):
         inside = np.flatnonzero(in_picture(view.camera, points))
