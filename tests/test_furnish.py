@@ -9,7 +9,7 @@ from wm.geometry.mesh.glb import object_nodes
 from wm.meter import StageMeter
 from wm.run import load_config
 from wm.stages import scene as stage
-from wm.stages.job import Job
+from wm.stages.run_context import RunContext
 
 CELL = (
     "scene.name=cell",
@@ -27,8 +27,8 @@ CELL = (
 def test_lifted_objects_keep_their_identity(tmp_path):
     config = load_config(CELL)
     with open_run_folder(tmp_path, {"seed": 0}) as folder:
-        job = Job(config=config, folder=folder, meter=StageMeter({}))
-        built = stage.build_scene(job)
+        context = RunContext(config=config, folder=folder, meter=StageMeter({}))
+        built = stage.build_scene(context)
         table = json.loads((tmp_path / stage.OBJECTS).read_text())
         assert len(table) == len(built.objects) >= 3
         assert {row["room"] for row in table} == set(built.rooms) and all(row["label"] and len(row["size"]) == 3 for row in table)
@@ -36,6 +36,6 @@ def test_lifted_objects_keep_their_identity(tmp_path):
         assert len(object_nodes(built.objects)) >= len(built.objects)
 
         before = (tmp_path / stage.OBJECT_ARRAYS).stat().st_mtime_ns
-        again = stage.build_scene(job)
+        again = stage.build_scene(context)
         assert (tmp_path / stage.OBJECT_ARRAYS).stat().st_mtime_ns == before
         assert [thing.vertices.tobytes() for thing in again.objects] == [thing.vertices.tobytes() for thing in built.objects]

@@ -13,7 +13,7 @@ from wm.meter import StageMeter
 from wm.metric_table import METRICS
 from wm.pipeline import run
 from wm.run import load_config
-from wm.stages.job import Job
+from wm.stages.run_context import RunContext
 from wm.stages.scene import build_scene
 
 SMALL = (
@@ -149,8 +149,8 @@ def test_a_plan_that_cannot_be_used_leaves_no_folder_behind(tmp_path):
 def painted(folder):
     config = with_recording(load_config(SMALL), "image", "depth")
     with open_run_folder(folder, {"seed": config.seed}) as store:
-        job = Job(config=config, folder=store, meter=StageMeter({}))
-        return pipeline._painted(job, build_scene(job))
+        context = RunContext(config=config, folder=store, meter=StageMeter({}))
+        return pipeline._painted(context, build_scene(context))
 
 
 def test_the_models_that_paint_are_closed_when_all_is_painted(monkeypatch, tmp_path):

@@ -68,7 +68,7 @@ def number(
     null: str = "",
     **metadata: Any,
 ) -> Any:
-    """A dataclass field that holds a number between bounds; of integers where the default is one (where that is None, where `low` is).
+    """A dataclass field that holds a number between bounds: an integer where the default (or, where that is None, `low`) is one.
 
     Args:
       default: its value where nothing else is said.

@@ -22,10 +22,10 @@ from wm.schema import RunConfig
 from wm.splat.optimization.padding import Capacity
 from wm.stages.evaluation import evaluate
 from wm.stages.heldout import HeldOut, render_heldout
-from wm.stages.job import TIMINGS, Job, versions
 from wm.stages.painting import Painted, is_painted, paint
 from wm.stages.reconstruction import HISTORY, reconstruct
 from wm.stages.reporting import METRICS_FILE, REPORT, report
+from wm.stages.run_context import TIMINGS, RunContext, versions
 from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.stages.warm_up import warming_up
 from wm.synth.registry import close_backend, make_backend
@@ -60,26 +60,26 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     with open_run_folder(folder, header, overwrite=config.overwrite, lend=lend) as store:
         if store.overwrites:
             meter.outdate()
-        job = Job(config=config, folder=store, meter=meter)
-        scene = build_scene(job)
+        context = RunContext(config=config, folder=store, meter=meter)
+        scene = build_scene(context)
         capacity = Capacity()
-        with warming_up(job, scene, capacity, needed=not is_painted(job, scene)):
-            painted, heldout = _painted(job, scene)
-        result = reconstruct(job, scene, painted, heldout, capacity)
-        metrics = evaluate(job, scene, painted, result, heldout)
-        metrics = report(job, scene, painted, result, metrics)
-        print(_summary(folder, job, metrics))
+        with warming_up(context, scene, capacity, needed=not is_painted(context, scene)):
+            painted, heldout = _painted(context, scene)
+        result = reconstruct(context, scene, painted, heldout, capacity)
+        metrics = evaluate(context, scene, painted, result, heldout)
+        metrics = report(context, scene, painted, result, metrics)
+        print(_summary(folder, context, metrics))
         return metrics
 
 
-def _painted(job: Job, scene: Scene) -> tuple[Painted, HeldOut]:
+def _painted(context: RunContext, scene: Scene) -> tuple[Painted, HeldOut]:
     """The stages that need the image and depth backends, which are closed afterwards to free their memory."""
     with contextlib.ExitStack() as done:
-        image = make_backend("image", job.config.image, scene.context)
+        image = make_backend("image", context.config.image, scene.context)
         done.callback(close_backend, image)
-        depth = make_backend("depth", job.config.depth, scene.context)
+        depth = make_backend("depth", context.config.depth, scene.context)
         done.callback(close_backend, depth)
-        return paint(job, scene, image, depth), render_heldout(job, scene, image)
+        return paint(context, scene, image, depth), render_heldout(context, scene, image)
 
 
 def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pathlib.Path) -> None:
@@ -107,12 +107,12 @@ def _timings(folder: pathlib.Path) -> dict:
         return {}
 
 
-def _summary(folder: pathlib.Path, job: Job, metrics: dict) -> str:
-    stages = {**job.meter.stages, "in all": metrics}
+def _summary(folder: pathlib.Path, context: RunContext, metrics: dict) -> str:
+    stages = {**context.meter.stages, "in all": metrics}
     rows = [(name, *(METRICS[key].text(row[key]) for key in ("seconds", "peak_gib"))) for name, row in stages.items()]
     measured = (METRICS[key] for key in ("psnr", "m_mae", "n_ang_deg") if metrics[key] is not None)
     held_out = ", ".join(f"{metric.label} {metric.text(metrics[metric.key])}" for metric in measured)
-    where = folder / REPORT if job.config.report.enabled else folder / METRICS_FILE
+    where = folder / REPORT if context.config.report.enabled else folder / METRICS_FILE
     return "\n".join(
         [
             f"\n{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",

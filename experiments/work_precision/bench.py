@@ -61,20 +61,20 @@ def furnished_room(folder: pathlib.Path, *, tiny: bool) -> Room:
     from wm.meter import StageMeter
     from wm.run import load_config
     from wm.stages.heldout import render_heldout
-    from wm.stages.job import Job
     from wm.stages.painting import paint
     from wm.stages.reconstruction import training_view
+    from wm.stages.run_context import RunContext
     from wm.stages.scene import build_scene
     from wm.synth.registry import make_backend
 
     size = ["preset=draft", "cameras.width=96", "cameras.height=64", "cameras.heldout_per_room=2"] if tiny else []
     config = load_config(["+scene=gothic", "scene.rooms=[dining room]", "image.drift=0", *size])
     with open_run_folder(folder, dataclasses.asdict(config), overwrite=True) as store:
-        job = Job(config=config, folder=store, meter=StageMeter({}))
-        scene = build_scene(job)
+        context = RunContext(config=config, folder=store, meter=StageMeter({}))
+        scene = build_scene(context)
         image = make_backend("image", config.image, scene.context)
-        painted = paint(job, scene, image, make_backend("depth", config.depth, scene.context))
-        truths = render_heldout(job, scene, image)
+        painted = paint(context, scene, image, make_backend("depth", config.depth, scene.context))
+        truths = render_heldout(context, scene, image)
         stored = [painted.view(view) for view in scene.views]
         everywhere = np.ones((config.cameras.height, config.cameras.width), bool)
         return Room(

@@ -13,8 +13,8 @@ from wm.meter import StageMeter
 from wm.run import load_config
 from wm.schema import FitSettings
 from wm.splat.optimization.cloud import SH_C0, initial_gaussians
-from wm.stages.job import Job
 from wm.stages.reconstruction import training_view
+from wm.stages.run_context import RunContext
 from wm.stages.scene import build_scene
 from wm.stages.starting import starting_gaussians
 
@@ -25,7 +25,7 @@ SETTINGS = FitSettings(spacing=0.1, detail_spacing=0.05)
 def scene(tmp_path_factory):
     config = load_config([*SMALL[:2], "scene.rooms=[bedroom,hall]", *SMALL[3:]])
     with open_run_folder(tmp_path_factory.mktemp("run"), {}, overwrite=False) as folder:
-        yield build_scene(Job(config=config, folder=folder, meter=StageMeter()))
+        yield build_scene(RunContext(config=config, folder=folder, meter=StageMeter()))
 
 
 def own_views(scene, room, most=None):

@@ -8,7 +8,7 @@ from wm.codecs import encode_objects
 from wm.geometry import plan_to_json
 from wm.meter import StageMeter
 from wm.run import load_config
-from wm.stages.job import Job
+from wm.stages.run_context import RunContext
 from wm.stages.scene import build_scene
 from wm.synth.furnished import furnished_context
 
@@ -21,7 +21,7 @@ LIFTED = (
 
 def built(folder, config):
     with open_run_folder(folder, {"seed": config.seed}) as store:
-        return build_scene(Job(config=config, folder=store, meter=StageMeter()))
+        return build_scene(RunContext(config=config, folder=store, meter=StageMeter()))
 
 
 def assert_same(context, scene):

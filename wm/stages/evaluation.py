@@ -17,10 +17,10 @@ from wm.splat.reprojection import every, overlap, reprojection_error, shared_pix
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.splat.similarity import ssim
 from wm.stages.heldout import HeldOut
-from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
-from wm.stages.reconstruction import Reconstruction
+from wm.stages.reconstruction import ReconstructedScene
+from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.types import OUTSIDE, GBuffer, Render, SurfaceKind, View
 
@@ -44,17 +44,17 @@ class Seen:
     gbuffer: GBuffer
 
 
-def evaluate(job: Job, scene: Scene, painted: Painted, result: Reconstruction, heldout: HeldOut) -> dict:
+def evaluate(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene, heldout: HeldOut) -> dict:
     """The metrics of the run by key, without its time and memory. A metric that no view could measure may be missing."""
-    with job.stage("evaluate"):
-        config = job.config
-        key = job.key("evaluate", result.key, config.evaluate, config.navigation)
+    with run.stage("evaluate"):
+        config = run.config
+        key = run.key("evaluate", result.key, config.evaluate, config.navigation)
         pictures = [_entry(view) for view in scene.heldout]
-        if not all(job.folder.has(name, key) for name in ("evaluate", *pictures)):
-            metrics = _scene_metrics(job, scene, painted, result) | _heldout_metrics(job, scene, result, heldout, key)
+        if not all(run.folder.has(name, key) for name in ("evaluate", *pictures)):
+            metrics = _scene_metrics(run, scene, painted, result) | _heldout_metrics(run, scene, result, heldout, key)
             clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
-            job.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
-        return json.loads((job.folder.path / EVALUATION).read_text())
+            run.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
+        return json.loads((run.folder.path / EVALUATION).read_text())
 
 
 def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:
@@ -78,9 +78,9 @@ def look_all(scene: Scene, renderer: SceneRenderer, views: Sequence[View]) -> It
     return in_order(lambda view: look(scene, renderer, view), views)
 
 
-def stored_render(job: Job, view: View) -> np.ndarray:
+def stored_render(run: RunContext, view: View) -> np.ndarray:
     """[h, w, 3] uint8: the render of a held-out view that `evaluate` has stored."""
-    return codecs.decode_png((job.folder.path / _picture(view)).read_bytes())
+    return codecs.decode_png((run.folder.path / _picture(view)).read_bytes())
 
 
 def _entry(view: View) -> str:
@@ -91,8 +91,8 @@ def _picture(view: View) -> str:
     return f"heldout/{view.name}.png"
 
 
-def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> dict:
-    walk = navigability(scene.plan, scene.objects, job.config.navigation)
+def _scene_metrics(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene) -> dict:
+    walk = navigability(scene.plan, scene.objects, run.config.navigation)
     seen = coverage(scene.plan, scene.rays, scene.views)
     return {
         "navigability": walk.share,
@@ -107,9 +107,9 @@ def _scene_metrics(job: Job, scene: Scene, painted: Painted, result: Reconstruct
     }
 
 
-def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: HeldOut, key: str) -> dict:
+def _heldout_metrics(run: RunContext, scene: Scene, result: ReconstructedScene, heldout: HeldOut, key: str) -> dict:
     rows: list[dict[str, float]] = []
-    with job.bar("evaluate", len(scene.heldout)) as bar:
+    with run.bar("evaluate", len(scene.heldout)) as bar:
         for _, members in itertools.groupby(scene.heldout, key=lambda view: view.room):
             seen = []
             for one in look_all(scene, result.renderer, list(members)):
@@ -117,11 +117,11 @@ def _heldout_metrics(job: Job, scene: Scene, result: Reconstruction, heldout: He
                 if heldout.known:
                     row |= _photometry(one.render.rgb, heldout.truth(one.view))
                 picture = codecs.encode_png(codecs.to_bytes(one.render.rgb))
-                job.folder.save(_entry(one.view), key, {_picture(one.view): picture})
+                run.folder.save(_entry(one.view), key, {_picture(one.view): picture})
                 rows.append(row)
                 seen.append(one)
                 bar.update()
-            rows += _reprojection(seen, job.config.evaluate.min_overlap)
+            rows += _reprojection(seen, run.config.evaluate.min_overlap)
     measured = {name for row in rows for name in row}
     return {name: _mean([row[name] for row in rows if name in row]) for name in measured}
 

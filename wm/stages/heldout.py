@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 
 from wm import codecs
-from wm.stages.job import Job
 from wm.stages.ordered import in_order
+from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.synth.backends import ImageBackend, WorldBackend
 from wm.synth.checked import checked_image
@@ -20,27 +20,27 @@ class HeldOut:
 
     known: bool  # whether the image backend knows its world
     key: str
-    job: Job
+    run: RunContext
 
     def truth(self, view: View) -> np.ndarray:
         """[h, w, 3] uint8: the true image of a held-out view."""
-        return codecs.decode_png((self.job.folder.path / _file(view)).read_bytes())
+        return codecs.decode_png((self.run.folder.path / _file(view)).read_bytes())
 
 
-def render_heldout(job: Job, scene: Scene, image: ImageBackend) -> HeldOut:
+def render_heldout(run: RunContext, scene: Scene, image: ImageBackend) -> HeldOut:
     """Stores the true images of all held-out views. Only a `WorldBackend` has any; a real image model has none."""
-    config = job.config
-    key = job.key("heldout", scene.key, config.scene.theme, config.cameras, *backend_key(config.image))
+    config = run.config
+    key = run.key("heldout", scene.key, config.scene.theme, config.cameras, *backend_key(config.image))
     if not isinstance(image, WorldBackend):
-        return HeldOut(known=False, key=key, job=job)
-    with job.stage("heldout"):
-        wanted = [view for view in scene.heldout if not job.folder.has(_name(view), key)]
-        job.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
-        with job.bar("heldout", len(wanted)) as bar:
+        return HeldOut(known=False, key=key, run=run)
+    with run.stage("heldout"):
+        wanted = [view for view in scene.heldout if not run.folder.has(_name(view), key)]
+        run.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
+        with run.bar("heldout", len(wanted)) as bar:
             for view, rgb in zip(wanted, in_order(image.truth, wanted)):
-                job.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(checked_image(rgb, view)))})
+                run.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(checked_image(rgb, view)))})
                 bar.update()
-    return HeldOut(known=True, key=key, job=job)
+    return HeldOut(known=True, key=key, run=run)
 
 
 def _name(view: View) -> str:

@@ -13,7 +13,7 @@ from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, object_box
 from wm.geometry.mesh.glb import object_nodes, save_glb
 from wm.geometry.plan.site import room_site
 from wm.schema import RunConfig
-from wm.stages.job import Job
+from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.synth.backends import DepthBackend, ImageBackend
 from wm.synth.painting import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
@@ -33,50 +33,50 @@ class Painted:
     yield_share: float
     atm: float | None
     key: str
-    job: Job
+    run: RunContext
 
     def view(self, view: View) -> PaintedView:
         """A finished view, read from the run folder."""
-        return read_view(self.job, view)
+        return read_view(self.run, view)
 
     def picture(self, view: View) -> tuple[np.ndarray, np.ndarray]:
         """Only the image [h, w, 3] uint8 of a finished view and its usable pixels [h, w] bool."""
-        return _read_picture(self.job, view)
+        return _read_picture(self.run, view)
 
 
-def paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
+def paint(run: RunContext, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
     """Paints and stores all views, and exports the textured scaffold."""
-    with job.stage("paint"):
-        return _paint(job, scene, image, depth)
+    with run.stage("paint"):
+        return _paint(run, scene, image, depth)
 
 
-def is_painted(job: Job, scene: Scene) -> bool:
+def is_painted(run: RunContext, scene: Scene) -> bool:
     """Whether the run folder holds every painted view and the textured scaffold."""
-    key = paint_key(job, scene)
-    return all(job.folder.has(name, key) for name in ("paint", *map(_entry, scene.views)))
+    key = paint_key(run, scene)
+    return all(run.folder.has(name, key) for name in ("paint", *map(_entry, scene.views)))
 
 
-def paint_key(job: Job, scene: Scene) -> str:
+def paint_key(run: RunContext, scene: Scene) -> str:
     """The key of every entry of the painting."""
-    config = job.config
+    config = run.config
     shown = (config.cameras, config.texture, config.condition, config.verify)
-    return job.key("paint", scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
+    return run.key("paint", scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
 
 
 def _entry(view: View) -> str:
     return f"paint/{view.name}"
 
 
-def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
-    config, key = job.config, paint_key(job, scene)
+def _paint(run: RunContext, scene: Scene, image: ImageBackend, depth: DepthBackend) -> Painted:
+    config, key = run.config, paint_key(run, scene)
     settings = PaintSettings(texture=config.texture, condition=config.condition, verify=config.verify)
     names = {_entry(view) for view in scene.views}
-    if is_painted(job, scene):
-        summary = json.loads((job.folder.path / SUMMARY).read_text())
-        return Painted(yield_share=summary["yield"], atm=summary["atm"], key=key, job=job)
-    job.folder.drop_others("paint/", names)
+    if is_painted(run, scene):
+        summary = json.loads((run.folder.path / SUMMARY).read_text())
+        return Painted(yield_share=summary["yield"], atm=summary["atm"], key=key, run=run)
+    run.folder.drop_others("paint/", names)
     scaffold = Scaffold(scene=scene.rays, objects=scene.objects)
-    with job.bar("paint", len(scene.views)) as bar:
+    with run.bar("paint", len(scene.views)) as bar:
 
         def show(view: View, painted: PaintedView) -> None:
             bar.set_postfix_str(view.name, refresh=False)
@@ -90,31 +90,31 @@ def _paint(job: Job, scene: Scene, image: ImageBackend, depth: DepthBackend) -> 
             depth,
             prompt=_prompts(scene, config),
             seed=config.seed,
-            load=lambda view: read_view(job, view) if job.folder.has(_entry(view), key) else None,
-            store=lambda view, painted, gbuffer: _store(job, scene, key, view, painted, gbuffer.depth),
+            load=lambda view: read_view(run, view) if run.folder.has(_entry(view), key) else None,
+            store=lambda view, painted, gbuffer: _store(run, scene, key, view, painted, gbuffer.depth),
             settings=settings,
             progress=show,
         )
-    _export(job, scene, result, key)
-    return Painted(yield_share=result.yield_share, atm=result.atm, key=key, job=job)
+    _export(run, scene, result, key)
+    return Painted(yield_share=result.yield_share, atm=result.atm, key=key, run=run)
 
 
-def read_view(job: Job, view: View) -> PaintedView:
+def read_view(run: RunContext, view: View) -> PaintedView:
     """Reads a stored view."""
-    base = job.folder.path / "views"
+    base = run.folder.path / "views"
     record = json.loads((base / f"{view.name}.json").read_text())["painted"]
-    rgb, mask = _read_picture(job, view)
+    rgb, mask = _read_picture(run, view)
     condition = codecs.decode_png((base / f"{view.name}.condition.png").read_bytes())
     return PaintedView(rgb=rgb, mask=mask, condition=condition, **record)
 
 
-def _read_picture(job: Job, view: View) -> tuple[np.ndarray, np.ndarray]:
-    base = job.folder.path / "views"
+def _read_picture(run: RunContext, view: View) -> tuple[np.ndarray, np.ndarray]:
+    base = run.folder.path / "views"
     rgb = codecs.decode_png((base / f"{view.name}.png").read_bytes())
     return rgb, codecs.decode_mask((base / f"{view.name}.mask.png").read_bytes())
 
 
-def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView, depth: np.ndarray) -> None:
+def _store(run: RunContext, scene: Scene, key: str, view: View, painted: PaintedView, depth: np.ndarray) -> None:
     record = {name: getattr(painted, name) for name in ("recall", "attempts", "accepted", "reference")}
     frame = codecs.camera_frame(view, scene.rooms[view.room])
     base = f"views/{view.name}"
@@ -125,7 +125,7 @@ def _store(job: Job, scene: Scene, key: str, view: View, painted: PaintedView, d
         f"{base}.depth.png": codecs.encode_depth(depth),
         f"{base}.json": json_text({"camera": frame, "painted": record}),
     }
-    job.folder.save(_entry(view), key, files)
+    run.folder.save(_entry(view), key, files)
 
 
 def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:
@@ -151,10 +151,10 @@ def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
     return prompt
 
 
-def _export(job: Job, scene: Scene, result: PaintSummary, key: str) -> None:
+def _export(run: RunContext, scene: Scene, result: PaintSummary, key: str) -> None:
     """Writes `scaffold.glb`: the structure with its painted texture, and every object as a node of its own."""
     nodes = [*atlas_nodes(result.atlas, scene.context.structure), *object_nodes(scene.objects)]
-    job.folder.save(
+    run.folder.save(
         "paint",
         key,
         {

@@ -18,9 +18,9 @@ from wm.splat.scene.scene_fit import fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.stages.executors import room_executor, worker_count
 from wm.stages.heldout import HeldOut
-from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
+from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.stages.starting import starting_gaussians
 from wm.types import OUTSIDE, Gaussians, GBuffer, View
@@ -33,7 +33,7 @@ _LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Reconstruction:
+class ReconstructedScene:
     """The fitted scene."""
 
     rooms: tuple[Gaussians, ...]  # by room, NumPy
@@ -42,18 +42,18 @@ class Reconstruction:
     renderer: SceneRenderer  # of the rooms
 
 
-def reconstruct(job: Job, scene: Scene, painted: Painted, heldout: HeldOut, capacity: Capacity) -> Reconstruction:
+def reconstruct(run: RunContext, scene: Scene, painted: Painted, heldout: HeldOut, capacity: Capacity) -> ReconstructedScene:
     """The gaussians of the scene, in `splats.ply`. The capacity is that of the warm-up: the fit runs what was compiled for it."""
-    with job.stage("reconstruct"):
-        config = job.config
-        key = job.key("reconstruct", painted.key, config.fit, config.raster)
-        if not job.folder.has("reconstruct", key):
-            _fit(job, scene, painted, heldout, capacity, key)
-        rooms = _split(codecs.decode_arrays((job.folder.path / BY_ROOM).read_bytes()))
-        return Reconstruction(
+    with run.stage("reconstruct"):
+        config = run.config
+        key = run.key("reconstruct", painted.key, config.fit, config.raster)
+        if not run.folder.has("reconstruct", key):
+            _fit(run, scene, painted, heldout, capacity, key)
+        rooms = _split(codecs.decode_arrays((run.folder.path / BY_ROOM).read_bytes()))
+        return ReconstructedScene(
             rooms=rooms,
             renderer=SceneRenderer(rooms, config.raster, capacity=capacity),
-            history=_read_history(job.folder.path / HISTORY),
+            history=_read_history(run.folder.path / HISTORY),
             key=key,
         )
 
@@ -90,8 +90,8 @@ def _read_history(file: pathlib.Path) -> tuple[dict, ...]:
         return ()
 
 
-def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Capacity, key: str) -> None:
-    config, folder = job.config, job.folder
+def _fit(run: RunContext, scene: Scene, painted: Painted, truths: HeldOut, capacity: Capacity, key: str) -> None:
+    config, folder = run.config, run.folder
     rooms = range(len(scene.plan.rooms))
 
     def views(room: int) -> Iterator[TrainingView]:
@@ -129,7 +129,7 @@ def _fit(job: Job, scene: Scene, painted: Painted, truths: HeldOut, capacity: Ca
     children = seeds.spawn(len(rooms))
     start = list(in_order(initial, rooms))
     workers = worker_count(config.workers)
-    with job.bar("reconstruct", len(rooms) * config.fit.steps) as bar, room_executor(config.executor, workers) as executor:
+    with run.bar("reconstruct", len(rooms) * config.fit.steps) as bar, room_executor(config.executor, workers) as executor:
 
         def progress(done: int, total: int, info: dict) -> None:
             if "loss" in info:

@@ -13,10 +13,10 @@ from wm.metric_table import METRICS
 from wm.report import ReportData, SheetRow, render_page, write_video
 from wm.splat.optimization.curve import HELDOUT
 from wm.stages.evaluation import GLIMPSE, Seen, glimpse, look_all, stored_render
-from wm.stages.job import Job
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
-from wm.stages.reconstruction import Reconstruction
+from wm.stages.reconstruction import ReconstructedScene
+from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.types import OUTSIDE, View
 
@@ -29,57 +29,57 @@ FARTHER = 1e-3
 """Score of a metre of median depth, beside those shares."""
 
 
-def report(job: Job, scene: Scene, painted: Painted, result: Reconstruction, metrics: dict) -> dict:
+def report(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene, metrics: dict) -> dict:
     """Writes the report; returns the metrics with time and memory in them."""
     page = None
-    with job.stage("report"):
-        if job.config.report.enabled:
-            page = _page(job, scene, painted, result)
+    with run.stage("report"):
+        if run.config.report.enabled:
+            page = _page(run, scene, painted, result)
     # The times of the stages are complete only now. A metric that was not measured becomes null.
-    complete = dict.fromkeys(METRICS) | metrics | {"seconds": job.meter.seconds, "peak_gib": job.meter.peak_gib}
-    job.folder.write(METRICS_FILE, json_text(complete))
+    complete = dict.fromkeys(METRICS) | metrics | {"seconds": run.meter.seconds, "peak_gib": run.meter.peak_gib}
+    run.folder.write(METRICS_FILE, json_text(complete))
     if page is not None:
-        job.folder.write(REPORT, render_page(dataclasses.replace(page, metrics=complete, timings=job.meter.stages)))
+        run.folder.write(REPORT, render_page(dataclasses.replace(page, metrics=complete, timings=run.meter.stages)))
     return complete
 
 
-def _page(job: Job, scene: Scene, painted: Painted, result: Reconstruction) -> ReportData:
+def _page(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene) -> ReportData:
     return ReportData(
-        scene=job.config.scene.name,
-        theme=job.config.scene.theme,
-        variant=job.config.variant,
-        preset=job.config.preset,
-        seed=job.config.seed,
+        scene=run.config.scene.name,
+        theme=run.config.scene.theme,
+        variant=run.config.variant,
+        preset=run.config.preset,
+        seed=run.config.seed,
         plan=scene.plan,
         objects=scene.objects,
         views=scene.views,
         sheets=_sheets(scene, painted, result),
-        heroes=_heroes(job, scene),
+        heroes=_heroes(run, scene),
         metrics={},
         timings={},
         history=_scene_curve(result.history),
-        video=_video(job, scene, result) if job.config.report.video else None,
+        video=_video(run, scene, result) if run.config.report.video else None,
     )
 
 
-def _video(job: Job, scene: Scene, result: Reconstruction) -> bytes:
-    config = job.config
-    key = job.key("video", result.key, config.report)
-    if not job.folder.has("video", key):
+def _video(run: RunContext, scene: Scene, result: ReconstructedScene) -> bytes:
+    config = run.config
+    key = run.key("video", result.key, config.report)
+    if not run.folder.has("video", key):
         cameras = walkthrough(scene.plan, scene.mesh, config.cameras, fps=config.report.fps, speed=config.report.walking_speed)
         views = [View(camera=camera, room=-1, kind="walk", name=f"walk{k}") for k, camera in enumerate(cameras)]
 
         def frames() -> Iterator[np.ndarray]:
-            with job.bar("video", len(views)) as bar:
+            with run.bar("video", len(views)) as bar:
                 for render in in_order(lambda view: glimpse(scene, result.renderer, view), views):
                     yield to_bytes(render.rgb)
                     bar.update()
 
-        job.folder.save("video", key, {VIDEO: lambda path: write_video(path, frames(), fps=config.report.fps)})
-    return (job.folder.path / VIDEO).read_bytes()
+        run.folder.save("video", key, {VIDEO: lambda path: write_video(path, frames(), fps=config.report.fps)})
+    return (run.folder.path / VIDEO).read_bytes()
 
 
-def _sheets(scene: Scene, painted: Painted, result: Reconstruction) -> dict[str, list[SheetRow]]:
+def _sheets(scene: Scene, painted: Painted, result: ReconstructedScene) -> dict[str, list[SheetRow]]:
     shown = []
     for index in range(len(scene.plan.rooms)):
         members = [view for view in scene.views if view.room == index]
@@ -107,13 +107,13 @@ def _sheet_row(painted: Painted, seen: Seen) -> SheetRow:
     )
 
 
-def _heroes(job: Job, scene: Scene) -> dict[str, np.ndarray]:
+def _heroes(run: RunContext, scene: Scene) -> dict[str, np.ndarray]:
     """For each room the stored render of the held-out view that shows most of its objects."""
     heroes = {}
     for index, room in enumerate(scene.rooms):
         members = [view for view in scene.heldout if view.room == index]
         if members:
-            heroes[room] = stored_render(job, max(members, key=lambda view: showing(scene, view)))
+            heroes[room] = stored_render(run, max(members, key=lambda view: showing(scene, view)))
     return heroes
 
 

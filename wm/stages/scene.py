@@ -17,7 +17,7 @@ from wm.geometry import (
     place_heldout,
     plan_to_json,
 )
-from wm.stages.job import Job
+from wm.stages.run_context import RunContext
 from wm.synth.backends import SceneContext
 from wm.synth.furnished import bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
@@ -48,28 +48,28 @@ class Scene:
         return [room.id for room in self.plan.rooms]
 
 
-def build_scene(job: Job) -> Scene:
+def build_scene(run: RunContext) -> Scene:
     """Builds the scene of a run. What the run folder already holds is read from there."""
-    with job.stage("plan"):
-        plan, plan_key = _plan(job)
-    with job.stage("structure"):
-        context = bare_context(job.config, plan)
-    with job.stage("furnish"):
-        objects, key = _furnish(job, context, plan_key)
+    with run.stage("plan"):
+        plan, plan_key = _plan(run)
+    with run.stage("structure"):
+        context = bare_context(run.config, plan)
+    with run.stage("furnish"):
+        objects, key = _furnish(run, context, plan_key)
         context = dataclasses.replace(context, objects=objects)
         mesh = assemble_scene(context.structure, objects)
         rays = build_ray_scene(mesh)
-    with job.stage("cameras"):
-        views, heldout = _cameras(job, plan, rays)
+    with run.stage("cameras"):
+        views, heldout = _cameras(run, plan, rays)
     return Scene(plan=plan, context=context, mesh=mesh, rays=rays, views=views, heldout=heldout, key=key)
 
 
-def _plan(job: Job) -> tuple[FloorPlan, str]:
-    config = job.config
+def _plan(run: RunContext) -> tuple[FloorPlan, str]:
+    config = run.config
     file = config.plan.file
     source = [file_digest(_user_file(file))] if file else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
-    key = job.key("plan", *source, config.plan.max_iterations)
-    if not job.folder.has("plan", key):
+    key = run.key("plan", *source, config.plan.max_iterations)
+    if not run.folder.has("plan", key):
         if file:
             plan = load_plan(pathlib.Path(file))
             layout = {"source": "file", "iterations": 0, "seconds": 0.0}
@@ -81,9 +81,9 @@ def _plan(job: Job) -> tuple[FloorPlan, str]:
             plan = proposal.plan
             layout = {"source": config.language.backend, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}
         # The time that the layout took is not part of the plan's entry, so that equal runs have equal manifests.
-        job.folder.write(LAYOUT, json_text(layout))
-        job.folder.save("plan", key, {PLAN: plan_to_json(plan)})
-    return parse_plan((job.folder.path / PLAN).read_text(), PLAN), key
+        run.folder.write(LAYOUT, json_text(layout))
+        run.folder.save("plan", key, {PLAN: plan_to_json(plan)})
+    return parse_plan((run.folder.path / PLAN).read_text(), PLAN), key
 
 
 def _user_file(file: str) -> pathlib.Path:
@@ -93,24 +93,24 @@ def _user_file(file: str) -> pathlib.Path:
     return path
 
 
-def _furnish(job: Job, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
-    config = job.config
+def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
+    config = run.config
     furnisher = make_furnisher(config, context)
-    key = job.key("furnish", plan_key, config.furnish, config.scene.theme, *furnisher.keys)
+    key = run.key("furnish", plan_key, config.furnish, config.scene.theme, *furnisher.keys)
     if not config.furnish.enabled:
         return (), key
-    if not job.folder.has("furnish", key):
-        with job.bar("furnish", len(context.plan.rooms)) as bar:
+    if not run.folder.has("furnish", key):
+        with run.bar("furnish", len(context.plan.rooms)) as bar:
             objects = furnisher.furnish(context, done=bar.update)
         summary = codecs.object_summary(objects, [room.id for room in context.plan.rooms])
-        job.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(objects), OBJECTS: json_text(summary)})
-    return codecs.decode_objects((job.folder.path / OBJECT_ARRAYS).read_bytes()), key
+        run.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(objects), OBJECTS: json_text(summary)})
+    return codecs.decode_objects((run.folder.path / OBJECT_ARRAYS).read_bytes()), key
 
 
-def _cameras(job: Job, plan: FloorPlan, rays: RayScene) -> tuple[tuple[View, ...], tuple[View, ...]]:
-    settings = job.config.cameras
+def _cameras(run: RunContext, plan: FloorPlan, rays: RayScene) -> tuple[tuple[View, ...], tuple[View, ...]]:
+    settings = run.config.cameras
     views = tuple(place_cameras(plan, rays, settings))
     heldout = tuple(place_heldout(plan, rays, views, settings))
     frames = codecs.transforms_json(views, [room.id for room in plan.rooms], "splats.ply")
-    job.folder.save("cameras", job.key("cameras", settings, json.dumps(frames)), {CAMERAS: json_text(frames)})
+    run.folder.save("cameras", run.key("cameras", settings, json.dumps(frames)), {CAMERAS: json_text(frames)})
     return views, heldout

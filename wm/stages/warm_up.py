@@ -23,8 +23,8 @@ from wm.schema import FitSettings, RunConfig
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
 from wm.splat.scene.scene_fit import fit_scene
-from wm.stages.job import Job
 from wm.stages.reconstruction import training_view
+from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.stages.starting import starting_gaussians
 from wm.types import OUTSIDE, Gaussians, View
@@ -34,23 +34,23 @@ CONTENDERS = 0.8
 
 
 @contextmanager
-def warming_up(job: Job, scene: Scene, capacity: Capacity, *, needed: bool) -> Iterator[None]:
+def warming_up(run: RunContext, scene: Scene, capacity: Capacity, *, needed: bool) -> Iterator[None]:
     """The warm-up runs in a thread beside the block if it is needed and there is a second core."""
     if not needed or cores() == 1 or not scene.views:
         yield
         return
     pool = ThreadPoolExecutor(1, thread_name_prefix="wm-warm-up")
     try:
-        pool.submit(warm_up, job, scene, capacity).add_done_callback(_tell)
+        pool.submit(warm_up, run, scene, capacity).add_done_callback(_tell)
         yield
     finally:
         pool.shutdown(wait=False)  # a fit of the same shapes waits for the compilation, nobody else needs to
 
 
-def warm_up(job: Job, scene: Scene, capacity: Capacity) -> None:
+def warm_up(run: RunContext, scene: Scene, capacity: Capacity) -> None:
     """One step of the room with the most gaussians, and one held-out render; raises the capacity to what they need."""
-    settings = job.config.fit
-    clouds = {room: _cloud(scene, room, job.config) for room in contenders(scene, settings)}
+    settings = run.config.fit
+    clouds = {room: _cloud(scene, room, run.config) for room in contenders(scene, settings)}
     room = max(clouds, key=lambda room: len(clouds[room].opacity_logits))
     nothing = jax.tree.map(lambda x: x[:0], clouds[room])
     first = next(_blank_views(scene, room))
@@ -58,7 +58,7 @@ def warm_up(job: Job, scene: Scene, capacity: Capacity) -> None:
         [clouds[room] if k == room else nothing for k in range(len(scene.rooms))],
         lambda k: [first] if k == room else [],
         settings=dataclasses.replace(settings, steps=1, rounds=1, curve_points=1, batch=1, refine_every=0),
-        raster=job.config.raster,
+        raster=run.config.raster,
         key=jax.random.key(0),
         heldout=lambda k: [first],
         capacity=capacity,

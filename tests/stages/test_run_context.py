@@ -7,14 +7,14 @@ import pytest
 from wm.artifacts import RunFolder
 from wm.meter import StageMeter
 from wm.schema import FitSettings, RunConfig
-from wm.stages import job as module
-from wm.stages.job import Job
+from wm.stages import run_context as module
+from wm.stages.run_context import RunContext
 
 
 @pytest.fixture
 def key(tmp_path):
     def of(stage: str, *inputs, seed: int = 0) -> str:
-        return Job(config=RunConfig(seed=seed), folder=RunFolder(tmp_path, print), meter=StageMeter()).key(stage, *inputs)
+        return RunContext(config=RunConfig(seed=seed), folder=RunFolder(tmp_path, print), meter=StageMeter()).key(stage, *inputs)
 
     return of
 

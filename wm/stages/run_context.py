@@ -1,4 +1,4 @@
-"""What every stage needs besides its inputs: the configuration, the run folder, the clock."""
+"""What every stage of a run needs besides its inputs: the configuration, the run folder and the meter."""
 
 import dataclasses
 import functools
@@ -21,8 +21,8 @@ _RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Job:
-    """One run under way."""
+class RunContext:
+    """The configuration, the folder and the meter of one run."""
 
     config: RunConfig
     folder: RunFolder
