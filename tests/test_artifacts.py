@@ -173,9 +173,9 @@ def test_digest_tells_arrays_apart_by_shape_and_type():
 
 
 def test_what_changes_no_result_is_no_part_of_a_key():
-    run = RunConfig()
+    run = RunConfig(image=ImageSettings())
     parts = {"image": ImageSettings(worker=False), "report": ReportConfig(enabled=False)}
     beside = RunConfig(**parts, output="x", reuse=False, overwrite=True, workers=3, executor="x", debug=True)
-    assert digest(run) == digest(beside) != digest(RunConfig(seed=1))
+    assert digest(run) == digest(beside) != digest(RunConfig(image=ImageSettings(), seed=1))
     assert digest(ReportConfig()) != digest(ReportConfig(enabled=False))  # of the report itself it is
     assert "worker" not in identity(run)["image"] and identity(run)["fit"]["steps"] == run.fit.steps

@@ -74,7 +74,8 @@ class Scene:
 
     def drawn(self, config, seed: int) -> ScaffoldViolation | None:
         rng = np.random.default_rng(np.random.SeedSequence([seed, 0xBAD]))
-        return draw_violation(config, self.stage.context, self.view, self.gbuffer, self.thing, rng)
+        shares = {kind: getattr(config, kind) for kind in KINDS}
+        return draw_violation(shares, self.stage.context, self.view, self.gbuffer, self.thing, rng)
 
     def judged(self, wrong: ScaffoldViolation | None, seed: int) -> dict:
         """One sample: what it is, whether it is a violation by definition, and what the two tests say of it."""

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from wm.offline.language.grammar import make
+from wm.offline.language.grammar import Settings, make
 from wm.synth.proposing import ProposalError, propose_plan
 
 ROOMS = ["hall", "kitchen"]
@@ -23,7 +23,7 @@ class Scripted:
 
 
 def good() -> str:
-    return make(None, None).propose("a house", ROOMS, seed=3, violations=[], previous=None)
+    return make(Settings()).propose("a house", ROOMS, seed=3, violations=[], previous=None)
 
 
 def without_doors() -> str:

@@ -114,7 +114,8 @@ def test_shares_are_shares():
     config = ImageSettings(missing=0.3, moved=0.2)
 
     def drawn_kind(seed, settings, **options):
-        found = draw_violation(settings, furnished(), VIEW, gbuffer, thing, np.random.default_rng(seed), **options)
+        shares = {kind: getattr(settings, kind) for kind in KINDS}
+        found = draw_violation(shares, furnished(), VIEW, gbuffer, thing, np.random.default_rng(seed), **options)
         return None if found is None else found.kind
 
     kinds = [drawn_kind(seed, config) for seed in range(300)]

@@ -50,7 +50,7 @@ def test_the_seed_decides():
 
 
 def test_an_image_that_carries_nothing_is_refused():
-    with pytest.raises(ValueError, match=r"objects\.segmentation=.drawn.*this image tells nothing"):
+    with pytest.raises(ValueError, match=r"offline segmentation.*this image tells nothing"):
         DrawnSegmentation(Settings()).segment(ImageResult(rgb=np.zeros((4, 4, 3), np.float32)), seed=0)
 
 
