@@ -20,7 +20,8 @@ WRITES = """
     pathlib.Path(folder, "metrics.json").write_text(json.dumps({"psnr": 20.0 + len(config["variant"])}))
 """
 FAKE = """
-import sys, types
+import signal, sys, types
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs, and what they start, ignore it otherwise
 def pipeline(config, folder, neighbours):
     print(config.scene.name, config.variant, folder)
     {action}

@@ -68,7 +68,8 @@ def test_ctrl_c_is_not_for_the_worker(worker):
 
 
 CALLER = """
-import functools, time, types
+import functools, signal, time, types
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs, and what they start, ignore it otherwise
 from wm.offline.world.worker import WorkerWorld
 busy = types.SimpleNamespace(make=functools.partial(time.sleep, 3600), context=types.SimpleNamespace(objects=()))
 world = WorkerWorld(busy, lanes=1)
