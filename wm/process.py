@@ -53,7 +53,7 @@ class WorkerProcess:
 
 
 def portable(error: BaseException) -> BaseException:
-    """A copy of an error that can be sent to another process, with its traceback as a note; a RuntimeError if it cannot be pickled."""
+    """A copy of an error, with its traceback as a note, for another process; a RuntimeError if the error cannot be pickled."""
     try:
         sent = pickle.loads(pickle.dumps(error))
     except Exception:

@@ -120,11 +120,13 @@ class View:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Texture:
-    """Base colours on the faces of an object, on the host. They are tied to faces and not to positions, so that they stay with the
-    object when it is moved or scaled."""
+    """Base colours on the faces of an object, on the host.
+
+    They are tied to faces and not to positions, so that they stay with the object when it is moved or scaled.
+    """
 
     image: np.ndarray  # [h, w, 3] uint8 sRGB
-    corner_uv: np.ndarray  # [f, 3, 2] float32 in [0, 1]: of each corner of a face; (0, 0) is the top left, v points down
+    corner_uv: np.ndarray  # [f, 3, 2] float32 in [0, 1]; (0, 0) is the top left corner, v runs down
     slots: np.ndarray  # [s] bool: slots whose faces are textured; faces of the others have the colour of their slot
 
 

@@ -1,4 +1,4 @@
-"""The offline image backend: it paints the offline world, with the faults that image models have.
+"""The offline image backend: it paints the offline world, with the flaws that image models have.
 
     painter        the backend
     imagination    what it invents where its condition leaves something open
