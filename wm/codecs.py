@@ -81,7 +81,7 @@ _TEXTURE_ARRAYS = ("image", "corner_uv", "slots")
 
 
 def encode_objects(objects: Sequence[SceneObject]) -> bytes:
-    """Objects as an .npz: the arrays of each object, and one table of labels, rooms, supports and slots."""
+    """The furniture as an .npz: arrays by object, and a table of labels, rooms, supports and slots."""
     table = [{"label": o.label, "room": o.room, "support": o.support, "slots": list(o.slots)} for o in objects]
     arrays = {f"{k:05d}.{name}": getattr(o, name) for k, o in enumerate(objects) for name in _OBJECT_ARRAYS}
     textures = [(k, o.texture) for k, o in enumerate(objects) if o.texture is not None]
@@ -102,7 +102,7 @@ def decode_objects(data: bytes) -> tuple[SceneObject, ...]:
 
 
 def object_summary(objects: Sequence[SceneObject], rooms: Sequence[str]) -> list[dict[str, Any]]:
-    """The label and the oriented box of each object, for `objects.json`."""
+    """Labels and oriented boxes, for `objects.json`."""
     return [
         {
             "label": o.label,

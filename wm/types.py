@@ -144,8 +144,8 @@ class SceneObject:
     slot_colors: np.ndarray  # [s, 3] float32 base colour of each slot, sRGB in [0, 1]
     T_world_object: np.ndarray  # [4, 4] float64: object frame (x right, y back, z up, origin at the foot's centre) to world
     size: np.ndarray  # [3] float64 extent along the object's own axes, metres
-    emission: np.ndarray  # [s] float32: emitted light of each slot as a multiple of its base colour (0 for none)
-    texture: Texture | None = None  # colours that are finer than one per slot
+    emission: np.ndarray  # [s] float32: how strongly each slot glows (0 for none)
+    texture: Texture | None = None  # colours finer than the slots', where images have shown them
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ class SceneContext:
     plan: Any  # wm.geometry.FloorPlan
     structure: Mesh  # without objects
     objects: tuple[SceneObject, ...]  # none while the scene is being furnished
-    density: float = 1.0  # 0..1: share of the optional pieces of furniture that are placed (furnish.density)
+    density: float = 1.0  # 0..1: share of the optional pieces of furniture that are wanted (furnish.density)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -28,7 +28,7 @@ FLOORS = (("wood_planks", 0.16), ("herringbone", 0.5), ("parquet", 0.45), ("ston
 CEILINGS = (("paint", 0.1), ("plaster", 1.0), ("wood_planks", 0.2))
 """The materials that an imagined surface may have, each with the length of its pattern in metres."""
 WOODEN = frozenset({"panelling", "wood_planks", "herringbone", "parquet"})
-"""Materials that have the colour of one of the theme's woods."""
+"""Materials in the colour of the theme's woods."""
 RIVALS = 5
 """Number of kinds, those of the most similar proportions, from which the substitute of an object is drawn."""
 STRETCH = 2.2
@@ -111,7 +111,7 @@ def _recolored(finish: Finish, accents: tuple[Rgb, ...], rng: np.random.Generato
 
 
 def boxed_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ...]:
-    """For each object of the scene an object of another kind, style and colours that fills its box."""
+    """For every object of the scene another that fills its box: of another kind, style and colours."""
     rng = _dice(context, number, 2)
     style = restyled(style_of(context.theme), rng)
     rooms = [room_type(room.name) for room in context.plan.rooms]
@@ -166,7 +166,7 @@ def _belongs(kind: str, room: str, family: str) -> bool:
 
 
 def other_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ...]:
-    """Other furniture in other places: every room furnished independently of the scene's objects."""
+    """Every room furnished anew, as if nothing had ever stood there."""
     rng = _dice(context, number, 3)
     style = restyled(style_of(context.theme), rng)
     seed = int(rng.integers(2**31))

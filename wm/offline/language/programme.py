@@ -69,7 +69,7 @@ def room_kind_of(room: str) -> RoomKind:
 
 
 def read_programme(rooms: list[str], building: Building, rng: np.random.Generator) -> list[Space]:
-    """The rooms of the programme, with unique ids and with areas drawn from the ranges of their kinds."""
+    """The wanted rooms with unique ids and areas drawn from their kinds' ranges."""
     spaces: list[Space] = []
     for room in rooms:
         add_space(spaces, room, building, rng)

@@ -14,7 +14,7 @@ VERSION = "1"
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
 class Settings(BackendSettings):
-    """The generator has no settings of its own."""
+    """The generator has no knobs."""
 
     backend: str = setting(__name__, "The offline generator of furnished rooms.")
 
