@@ -22,7 +22,7 @@ class Furnisher:
     keys: tuple[Any, ...]  # for a stage's key: the backend, and the models that it uses, since they shape the furniture
 
     def furnish(self, context: SceneContext, *, done: Callable[[], object] = lambda: None) -> list[SceneObject]:
-        """The objects of all rooms. Calls `done` after each room, and closes the backend at the end, also after an error."""
+        """The objects of all rooms; `done` is called after each room. The backend is closed at the end, also after an error."""
         with contextlib.ExitStack() as held:
             held.callback(close_backend, self.backend)
             objects: list[SceneObject] = []
