@@ -1,13 +1,13 @@
-"""The sort of a room, recognised from its name.
+"""Sorts of rooms, told by a room's name.
 
-The one vocabulary for everything that proposes a plan, checks it, or finishes and furnishes its rooms.
+One vocabulary for all that propose a plan, check it, or finish and furnish its rooms.
 """
 
 import re
 
 ROOM, OTHER = "room", "other"
 
-# The last known word of a name decides ("hall bathroom" is a bathroom); a phrase is preferred to its last word.
+# The last word that says what a room is decides ("hall bathroom" is a bathroom); phrases come before words.
 PHRASES = {
     "great hall": "great hall", "grand hall": "great hall", "throne room": "great hall", "dining hall": "dining",
     "banquet hall": "dining", "breakfast nook": "dining", "guest room": "bedroom", "cloak room": "service",
@@ -33,14 +33,14 @@ WORDS = {
     "service": "service pantry larder laundry utility closet storage store storeroom cellar mudroom dressing wardrobe cloakroom",
 }
 SORTS = (*WORDS, ROOM, OTHER)
-"""All sorts of rooms. ROOM is a room whose name has no known word but "room" ("tea room"); OTHER has no known word at all."""
+"""Every sort of room; ROOM is one whose name says no more than that ("tea room"), OTHER one whose name has no known word."""
 CONNECTING = frozenset(("corridor", "hall", "great hall", "gallery", "atrium"))
-"""Sorts of rooms that lead to other rooms. A plan may add rooms of these sorts to the programme."""
+"""Sorts of rooms that lead to others. A plan may add rooms of these sorts to those that were asked for."""
 _SORT_OF_WORD = {word: sort for sort, words in WORDS.items() for word in words.split()}
 
 
 def room_sort(name: str) -> str:
-    """The sort (one of SORTS) of a room with this name. Only whole words count, so that "Bathsheba" is not a bathroom."""
+    """The sort of room, one of SORTS, that a name speaks of: by whole words, so that "Bathsheba" is no bathroom by accident."""
     words = re.findall(r"[a-z]+", name.lower())
     for end in range(len(words), 0, -1):
         sort = PHRASES.get(" ".join(words[max(end - 2, 0) : end])) or _SORT_OF_WORD.get(words[end - 1])

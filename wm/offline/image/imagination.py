@@ -156,7 +156,7 @@ def _rivals(thing: SceneObject, size: np.ndarray, room: str, family: str) -> lis
 
 
 def _belongs(kind: str, room: str, family: str) -> bool:
-    """Whether a kind of furniture occurs in a type of room in a style family."""
+    """Whether a family would have a kind of furniture in a type of room."""
     if kind in ABSENT.get(family, ()):
         return False
     if kind in bath.KINDS or kind in kitchen.KINDS:

@@ -18,8 +18,8 @@ from wm.offline.language.programme import CIRCULATION, PUBLIC, Space, add_space
 from wm.offline.language.rows import Cell, is_small, make_cells
 
 SKETCHES = 8
-_CAPACITY = {"corridor": 9, "hall": 8}  # largest number of cells around one core
-_HUBS = ("great hall", "atrium", "hall", "gallery", "corridor")  # in order of preference
+_CAPACITY = {"corridor": 9, "hall": 8}  # cells that one core can serve
+_HUBS = ("great hall", "atrium", "hall", "gallery", "corridor")  # what leads best to other rooms first
 _QUARTER_TURNS = np.array([[[1, 0], [0, 1]], [[0, -1], [1, 0]], [[-1, 0], [0, -1]], [[0, 1], [-1, 0]]])
 
 

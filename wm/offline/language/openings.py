@@ -188,7 +188,7 @@ def _windows(
     width = round(100 * draw(building.window, rng))
     sill, head = round(100 * building.sill), min(round(100 * building.head), ceiling - 25)
     if zone == WET:
-        width, sill = min(width, 80), min(140, head - 60)  # small, and above the eye level of a seated person
+        width, sill = min(width, 80), min(140, head - 60)  # small and above eye level for those who sit
     elif space.kind.name in ("kitchen", "service"):
         width, sill = min(width, 150), max(sill, 100)  # above the worktop
     wanted = 1 if zone == WET else max(1, math.ceil(space.area / 7))

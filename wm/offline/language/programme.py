@@ -1,4 +1,4 @@
-"""The room programme: the kind of each named room, its size, and its zone in the house."""
+"""The room programme: what each named room is, how large, and how it likes to be reached."""
 
 import dataclasses
 import re
@@ -16,7 +16,7 @@ CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private",
 class RoomKind:
     """A kind of room: floor area range in square metres, zone, and rank from the front of the house (0) to its back."""
 
-    name: str  # a sort of room of wm.synth.room_names; there is one kind per sort
+    name: str  # a sort of wm.synth.room_names: there is one kind for each
     area: tuple[float, float]
     zone: str
     rank: float
@@ -55,7 +55,7 @@ _KINDS = {
 
 @dataclasses.dataclass(frozen=True)
 class Space:
-    """One room of the programme."""
+    """One room that is wanted."""
 
     id: str
     name: str
@@ -64,7 +64,7 @@ class Space:
 
 
 def room_kind_of(room: str) -> RoomKind:
-    """The kind of a room with this name; a public room of medium size if the name has no known word."""
+    """The kind a room's name speaks of; a public room of middling size where it speaks of none."""
     return _KINDS[room_sort(room)]
 
 
