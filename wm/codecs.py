@@ -1,6 +1,7 @@
-"""How records become the bytes of files, and back: PNG, 16-bit depth, furniture, gaussians, camera lists.
+"""Encodes records as the bytes of files, and decodes them: images, masks and depth as PNG, arrays and objects as NPZ, cameras as
+JSON.
 
-Every encoder is deterministic: equal records give equal bytes.
+All encoders are deterministic: equal records give equal bytes.
 """
 
 import io
@@ -17,16 +18,16 @@ from wm.types import Camera, SceneObject, Texture, View
 DEPTH_UNIT = 1e-3
 """Metres per step of a 16-bit depth PNG, nerfstudio's `depth_unit_scale_factor`."""
 
-# nerfstudio's cameras look along -z with y up; ours along +z with y down.
+# nerfstudio's cameras look along -z and have y up; ours look along +z and have y down.
 _OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
 FAST = 1
-"""zlib's level for images: a third of the time of its usual 6, files a tenth larger."""
+"""zlib's compression level for images. It takes a third of the time of the default level 6; files are a tenth larger."""
 
 
 def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1] as 8 bits, clipped and rounded; 8-bit images as they are."""
+    """An image in [0, 1], clipped and rounded to 8 bits. An 8-bit image is returned unchanged."""
     return rgb if rgb.dtype == np.uint8 else np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
 
 
@@ -50,12 +51,12 @@ def encode_mask(mask: Bool[np.ndarray, "h w"]) -> bytes:
 
 def decode_mask(data: bytes) -> Bool[np.ndarray, "h w"]:
     with Image.open(io.BytesIO(data)) as image:
-        # Compared, not cast: Pillow's own booleans are bytes of 255, which XLA takes at their word.
+        # Compared, not cast: Pillow stores True as a byte of 255, and XLA computes with that value.
         return np.asarray(image.convert("L")) > 127
 
 
 def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:
-    """A 16-bit PNG of z-depth in steps of DEPTH_UNIT; 0 stays 0, what lies beyond 65.5 m is clipped."""
+    """A 16-bit PNG of z-depth in steps of DEPTH_UNIT; 0 stays 0, and depth beyond 65.5 m is clipped."""
     steps = np.clip(np.round(depth / DEPTH_UNIT), 0, np.iinfo(np.uint16).max).astype(np.uint16)
     buffer = io.BytesIO()
     Image.fromarray(steps).save(buffer, format="PNG", compress_level=FAST)
@@ -63,7 +64,7 @@ def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:
 
 
 def encode_arrays(arrays: Mapping[str, np.ndarray]) -> bytes:
-    """An uncompressed .npz with its names in order."""
+    """An uncompressed .npz whose arrays are sorted by name."""
     buffer = io.BytesIO()
     in_order: dict[str, Any] = {name: arrays[name] for name in sorted(arrays)}
     np.savez(buffer, **in_order)

@@ -1,4 +1,4 @@
-"""The error of a caller who asked for what cannot be done."""
+"""The error of an input that cannot be used."""
 
 
 class InputError(ValueError):

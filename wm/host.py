@@ -1,18 +1,18 @@
-"""Settings of this process that a run wants, whatever it computes. They change times and never results."""
+"""Settings of this process that make a run faster, and the number of its cores. They never change results."""
 
 import contextlib
 import ctypes
 import os
 
-# glibc's malloc.h. Fresh pages are costly on virtual machines: giving every large array back to the system and faulting it in
-# anew took a third of the time of a fit (and nine tenths of the gradient of the projection alone). A threshold above 32 MiB is
-# refused, so mapping is turned off altogether: arrays of the fit are larger.
+# From glibc's malloc.h. New pages are expensive on virtual machines: returning each large array to the system and allocating it
+# again took a third of the time of a fit (and nine tenths of the time of the projection's gradient). glibc refuses a threshold
+# above 32 MiB, and arrays of a fit are larger, so mmap is turned off altogether.
 _M_TRIM_THRESHOLD, _M_TOP_PAD, _M_MMAP_MAX, _M_ARENA_MAX = -1, -2, -4, -8
 
 
 def prepare_process() -> None:
-    """Keeps freed memory for reuse, where the C library is glibc."""
-    with contextlib.suppress(OSError, AttributeError, TypeError):  # another C library: its own defaults
+    """Makes glibc keep freed memory for reuse. Does nothing with another C library."""
+    with contextlib.suppress(OSError, AttributeError, TypeError):  # not glibc
         libc = ctypes.CDLL(None)
         libc.mallopt(_M_ARENA_MAX, 1)
         libc.mallopt(_M_MMAP_MAX, 0)
@@ -21,5 +21,5 @@ def prepare_process() -> None:
 
 
 def cores() -> int:
-    """Cores this process may use."""
+    """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

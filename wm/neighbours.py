@@ -1,8 +1,8 @@
-"""Finished work of the runs beside this one: an entry of the same key need not be made twice.
+"""The reuse cache: finished entries of other run folders, copied if they have the key that this run needs.
 
-The runs of a sweep lie side by side (outputs/<scene>/<variant>/<seed>), and most rows of an ablation differ from each other in
-one stage: whatever comes before it has the same key in each, hence the same bytes. Such entries are copied, never linked, so
-that a folder can be changed or deleted without the others.
+The runs of a sweep lie side by side (outputs/<scene>/<variant>/<seed>), and most rows of an ablation differ in one stage only.
+The stages before it have the same keys in each row, hence the same bytes. Their entries are copied and not linked, so that each
+folder can be changed or deleted without affecting the others.
 """
 
 import dataclasses
@@ -23,12 +23,12 @@ class Neighbour:
 
 
 class Neighbours:
-    """What the runs beside this one have finished.
+    """The reuse cache over several run folders.
 
     Args:
-      folders: run folders; one without a readable manifest lends nothing.
-      say: called with one line for each stage and folder from which something is taken.
-      account: called with a stage and a folder at the same time: the work has cost something there.
+      folders: run folders; one without a readable manifest is ignored.
+      say: called with one line of text for each pair of a stage and a folder from which an entry is copied.
+      account: called for the same pairs with the stage and the folder, so that the time spent there can be accounted for.
     """
 
     def __init__(
@@ -43,10 +43,10 @@ class Neighbours:
         self._said: set[tuple[str, pathlib.Path]] = set()
 
     def lend(self, name: str, key: str, into: pathlib.Path) -> list[str]:
-        """Copies the files of entry `name` made from `key` into a run folder.
+        """Copies the files of the entry `name` with the key `key` into a run folder.
 
         Returns:
-          The files, relative to the folder; none if no neighbour has the entry whole.
+          The files, relative to the folder; an empty list if no neighbour has all of them unchanged.
         """
         for neighbour in self._neighbours:
             entry = neighbour.entries.get(name)
@@ -72,10 +72,10 @@ def _read(folder: pathlib.Path) -> Neighbour | None:
 
 
 def _copy(source: pathlib.Path, files: Mapping[str, str], into: pathlib.Path) -> bool:
-    """Whether all files were there, to be read, and whole; they are then in `into`."""
+    """Copies the files into `into` if all of them can be read and have the expected digest, and returns whether it did."""
     try:
         contents = {relative: (source / relative).read_bytes() for relative in files}
-    except OSError:  # the neighbour is at work, somebody tidied up, or it is not ours to read
+    except OSError:  # another run is writing the folder, files were deleted, or they may not be read
         return False
     if any(content_digest(contents[relative]) != expected for relative, expected in files.items()):
         return False

@@ -1,6 +1,6 @@
-"""Every numeric guard in one place, each named by what it promises in value *and* in gradient.
+"""All numeric guards. Each is named by what it guarantees for the value *and* for the gradient.
 
-The rule: substitute before the dangerous operation, select after it, per element. Where no direction exists the gradient is 0.
+The rule: substitute before the unsafe operation and select after it, per element. Where there is no gradient, it is set to 0.
 """
 
 import jax.numpy as jnp

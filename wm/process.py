@@ -1,9 +1,9 @@
-"""A process of its own for what Python's interpreter lock, or one pool of threads, would hold up here. POSIX only.
+"""Worker processes, for work that Python's interpreter lock or a shared pool of threads would slow down. POSIX only.
 
-A worker is this module run as a program: it serves the pipes it was given with the `serve(pipes)` of a module, until they are
-closed. It is started by name and neither forked nor spawned, so that it needs nothing of the caller's `__main__` and shares no
-lock with the caller's threads. It has a session of its own, since Ctrl-C is for the caller, which then ends it; and it ends with
-the caller, however that comes about: of its standard input, a pipe, the caller holds the other end.
+A worker is this module run as a program: it calls `serve(pipes)` of a given module, which returns when the pipes are closed. It
+is started as a new program and neither forked nor spawned, so that it does not need the caller's `__main__` and shares no lock
+with the caller's threads. It runs in a session of its own, so that Ctrl-C reaches the caller only, which then ends the worker.
+It also ends if the caller is killed: its standard input is a pipe whose other end the caller holds.
 """
 
 import contextlib
@@ -21,18 +21,18 @@ from wm.host import prepare_process
 
 
 class WorkerProcess:
-    """A running worker, and our ends of its pipes."""
+    """A running worker process, and the caller's ends of its pipes."""
 
     def __init__(self, module: str, *, lanes: int = 1) -> None:
-        """Starts it.
+        """Starts a worker.
 
         Args:
-            module: the name of one that has `serve(pipes)`.
-            lanes: how many pipes there are.
+            module: name of a module with a function `serve(pipes)`.
+            lanes: number of pipes.
         """
         pairs = [Pipe() for _ in range(lanes)]
         theirs = [pipe.fileno() for _, pipe in pairs]
-        paths = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # this wm, wherever it was imported from
+        paths = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}  # so that the worker imports the same wm
         command = [sys.executable, "-m", __name__, module, *map(str, theirs)]
         variables = os.environ | paths
         self.popen = subprocess.Popen(command, stdin=subprocess.PIPE, pass_fds=theirs, env=variables, start_new_session=True)
@@ -42,15 +42,18 @@ class WorkerProcess:
         self.close = weakref.finalize(self, _end, self.popen, self.pipes)
 
     def exit_code(self, *, patience: float) -> int | None:
-        """Of a worker whose pipes have closed, as soon as it has ended; None: not within `patience` seconds. Negative: the signal
-        that ended it."""
+        """Waits up to `patience` seconds for the worker to end.
+
+        Returns:
+          Its exit code, or minus the number of the signal that ended it; None if it is still running.
+        """
         with contextlib.suppress(subprocess.TimeoutExpired):
             return self.popen.wait(patience)
         return None
 
 
 def portable(error: BaseException) -> BaseException:
-    """An error as another process can be sent it, with a note of where it was raised: itself, if pickling keeps it."""
+    """A copy of an error, with its traceback as a note, for another process; a RuntimeError if the error cannot be pickled."""
     try:
         sent = pickle.loads(pickle.dumps(error))
     except Exception:
@@ -62,12 +65,12 @@ def portable(error: BaseException) -> BaseException:
 def _end(popen: subprocess.Popen, pipes: list[Connection]) -> None:
     popen.terminate()
     popen.communicate()
-    for pipe in pipes:  # now that whoever waits at one has been told that it ended
+    for pipe in pipes:  # only now, since a thread that waits at a pipe must first see that the worker has ended
         pipe.close()
 
 
 def _end_with_the_caller() -> None:
-    """Waits for the end of standard input, which nothing is ever written to: whatever is under way then is for nobody."""
+    """Ends this process when its standard input is closed. Nothing is written to it, so that means that the caller has ended."""
     os.read(0, 1)
     os._exit(1)
 

@@ -1,8 +1,8 @@
-"""The records that the floors hand to each other.
+"""The records that several packages share.
 
 Units are metres and radians; z is up; right-handed. Camera axes are OpenCV's (x right, y down, z forward); pixel (i, j) has its
 centre at (i + 0.5, j + 0.5); depth is z-depth, not ray length; quaternions are wxyz; images are float32 in [0, 1], sRGB-encoded,
-`[h, w, 3]`. Records on the host hold NumPy arrays, records on the device JAX arrays; each says which.
+`[h, w, 3]`. Records on the host hold NumPy arrays and records on the device hold JAX arrays; each docstring says which.
 """
 
 import dataclasses
@@ -20,7 +20,7 @@ T = typing.TypeVar("T")
 
 @typing.dataclass_transform(frozen_default=True, eq_default=False)
 def record(cls: type[T]) -> type[T]:
-    """A frozen pytree of arrays without static fields: chex's dataclass, in a form that type checkers understand."""
+    """A frozen pytree of arrays without static fields: chex's dataclass, declared so that type checkers understand it."""
     return chex.dataclass(frozen=True, mappable_dataclass=False, eq=False)(cls)
 
 
@@ -96,7 +96,7 @@ class Gaussians:
 
 
 Background = Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"]
-"""The colour behind all gaussians, one or one a pixel, on the device or the host."""
+"""The colour behind all gaussians: one colour, or one per pixel. On the device or the host."""
 
 
 @record
@@ -120,19 +120,21 @@ class View:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Texture:
-    """Base colours over the faces of an object, on the host. They are tied to faces and not to places: wherever the object is
-    moved, and however it is pressed, they go along."""
+    """Base colours on the faces of an object, on the host.
+
+    They are tied to faces and not to positions, so that they stay with the object when it is moved or scaled.
+    """
 
     image: np.ndarray  # [h, w, 3] uint8 sRGB
-    corner_uv: np.ndarray  # [f, 3, 2] float32 in [0, 1]: of each face's corners; (0, 0) is the first pixel's corner, v runs down
-    slots: np.ndarray  # [s] bool: slots whose faces look it up; the others have their slot's colour
+    corner_uv: np.ndarray  # [f, 3, 2] float32 in [0, 1]; (0, 0) is the top left corner, v runs down
+    slots: np.ndarray  # [s] bool: slots whose faces are textured; faces of the others have the colour of their slot
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SceneObject:
-    """One separate thing in a room, as a closed or open triangle mesh in world space, on the host."""
+    """One separate object in a room, as a closed or open triangle mesh in world space, on the host."""
 
-    label: str  # what a person would call it: "armchair", "floor lamp"
+    label: str  # its name in everyday words, such as "armchair" or "floor lamp"
     room: int  # index into FloorPlan.rooms
     support: str  # floor | flat | wall | ceiling | object (stacked on another)
     vertices: np.ndarray  # [v, 3] float64, world metres

@@ -1,7 +1,7 @@
-"""Whether a configuration can be run: every value against what its field allows, and values against each other, all at once.
+"""Checks whether a configuration can be run, and reports all its errors together.
 
-Hydra checks names and types; this checks what they mean, for callers from Python too. Ranges and choices stand where the fields
-are declared (`wm.bounds`). Imports nothing heavy.
+Hydra checks the names and types of keys. This module checks their values, also for callers from Python: each value against the
+range or the options that are declared with its field (`wm.bounds`), and values against each other. It imports nothing heavy.
 """
 
 import re
@@ -13,14 +13,14 @@ from wm.schema import RunConfig
 
 
 class ConfigError(InputError):
-    """A configuration that cannot be run; the message names key, value and what would be right."""
+    """A configuration that cannot be run; the message names the key, its value and the expected values."""
 
 
 def validate_config(config: RunConfig) -> None:
-    """Checks every value, those of the backends' settings too. Whether there are such backends says wm.synth.registry.
+    """Checks all values, including the settings of backends. Whether the backends exist is checked by wm.synth.registry.
 
     Raises:
-      ConfigError: naming every key that is wrong, its value, and the choices or the range.
+      ConfigError: names each wrong key, its value, and its options or its range.
     """
     problems = list(_values_not_allowed(config))
     if config.raster.compositor in ("kernels", "interpreted") and config.raster.tile.bit_count() != 1:

@@ -4,10 +4,11 @@
     mesh       triangle meshes: the building carved from a plan, objects, GLB
     rays       pinhole cameras, raycasts and G-buffers
     texture    the texture atlas: images projected into it, its colours read and exported
-    placement  furniture: where it may stand, what it rests on, where people can walk
+    placement  where furniture may stand, what it rests on, where people can walk
     cameras    where views stand, what they see, the walk of the video
+    exchange   objects read from mesh files of others, and given to trimesh
 
-embreex is imported with the first ray scene and not before.
+embreex is imported when the first ray scene is built and trimesh when the first mesh file is read, not before.
 """
 
 from wm.geometry.cameras.heldout import place_heldout as place_heldout

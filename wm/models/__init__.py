@@ -1,1 +1,1 @@
-"""Backends of real models. None is in this version; a model of one's own comes from outside (wm.synth.registry says how)."""
+"""Backends of real models. This version has none; a model of your own can come from outside (see wm.synth.registry)."""

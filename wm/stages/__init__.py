@@ -1,1 +1,14 @@
-"""The stages of a run: each is a function of the run's context and of the results of the stages before it."""
+"""The stages of a run: each is a function of the run's context and of the results of the stages before it.
+
+    run_context     RunContext: the configuration, the run folder and the meter, which every stage needs
+    scene           build_scene: the stages plan, structure, furnish and cameras
+    painting        paint: an image for every training view
+    heldout         render_heldout: the true image of each held-out view
+    reconstruction  reconstruct: gaussians from the painted views
+    starting        starting_gaussians: the initial gaussians of a room
+    warm_up         warming_up: what the fit will run is compiled while views are painted
+    executors       room_executor: the executor that fits rooms, by its name in the configuration
+    evaluation      evaluate: the metrics, measured on held-out views
+    reporting       report: metrics.json, the fly-through and report.html
+    ordered         in_order: a parallel map over threads that yields its results in order
+"""

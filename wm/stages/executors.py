@@ -1,4 +1,4 @@
-"""The executors that rooms can be fitted by, by the name that a configuration selects (`executor=...`)."""
+"""The executors that can fit rooms, by the name that a configuration selects (`executor=...`)."""
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
@@ -11,14 +11,14 @@ def _threads(workers: int) -> Executor:
 
 
 EXECUTORS: Mapping[str, Callable[[int], Executor]] = {"threads": _threads}
-"""Name -> a function that makes the executor for a number of rooms at once. The names are those of `executor` in wm.schema."""
+"""Name -> a function that makes an executor for so many rooms at a time. The names are the options of `executor` in wm.schema."""
 
 
 def room_executor(name: str, workers: int) -> Executor:
-    """A new executor, which the caller shuts down (`with` does)."""
+    """A new executor. The caller shuts it down, for example by `with`."""
     return EXECUTORS[name](workers)
 
 
 def worker_count(asked: int | None) -> int:
-    """How many rooms are fitted at once: as many as asked for; asked for None, one per core."""
+    """Number of rooms that are fitted at a time: `asked`, or one per core if that is None."""
     return asked or cores()

@@ -1,13 +1,22 @@
-"""From words and a scaffold to pictures of it: backends for language, images, objects and depth, and the painting loop.
+"""The method: from a theme to a plan, and from a scaffold to images of it. Models are reached through protocols only.
 
-    backends     what a backend must offer, and the registry that imports the selected one
-    condition    X, what the image model is shown of the scaffold
-    order        in which order views are painted, and where each takes its style from
-    canny        depth edges
-    verify       does an image keep the scaffold's structure?
-    agreement    where a failed one may still be used
-    attempt      one view: generate, verify, try again
-    paint        the loop: condition, generate, verify, project back
+    backends    the protocol of each group of backends, and the records that go in and come out
+    registry    make_backend: the module that a configuration names, imported and checked
+    checked     what a backend returns, checked where it comes in
+    room_names  the sort of room that a name speaks of
+    proposing   propose_plan: the language model asked for a plan until its answer is valid
+    furnished   Furnisher: the objects of a room, from the objects backend
+    lifting     the image-driven objects backend: furniture out of images
+    condition   the condition X: what the image model is shown of the scaffold
+    order       the order in which views are painted, and the reference of each
+    prompts     the prompts of the image model
+    sights      the doors and windows that a view shows, in words
+    canny       depth edges
+    alignment   depth estimates brought to the scale and shift of the scaffold
+    verify      whether an image keeps the structure of the scaffold
+    agreement   the pixels at which an image that failed may still be used
+    attempt     paint_view: one view generated, verified, and tried again
+    painting    the loop over views: condition, generate, verify, project into the atlas
 """
 
 from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext

@@ -1,8 +1,8 @@
 """Where an image that failed verification may still be used: the pixels at which it agrees with the scaffold.
 
 A pixel agrees if the depth estimated from the image, brought to the scaffold's scale and shift, is within the tolerance of the
-scaffold's depth there, and no scaffold edge that the image misses is near. The paper drops such views; a view that is wrong
-about one chair still shows the rest of the room.
+scaffold's depth at that pixel, and if no edge of the scaffold that the image misses is near it. The paper drops images that
+failed; we keep their pixels that agree, since an image that is wrong about one chair still shows the rest of the room.
 """
 
 import numpy as np
@@ -21,12 +21,12 @@ def agreement(
     estimate: Float[np.ndarray, "h w"] | None,
     settings: VerifySettings,
 ) -> Bool[np.ndarray, "h w"]:
-    """Pixels at which an image agrees with the scaffold; none where there is no estimate to tell by.
+    """Pixels at which an image agrees with the scaffold; no pixel if there is no depth estimate.
 
     Args:
-      depth, hit: the scaffold's z-depth, metres, and where it is hit.
-      scaffold_edges: its depth edges.
-      estimate: depth of the image up to scale and shift, None for no estimate.
+      depth, hit: the scaffold's z-depth in metres, and the pixels that hit the scaffold.
+      scaffold_edges: the depth edges of the scaffold.
+      estimate: depth of the image up to scale and shift; None if there is no estimate.
       settings: Canny thresholds and the reach of an edge, as in verification.
     """
     if estimate is None:

@@ -1,7 +1,7 @@
-"""Depth estimates are given up to scale and shift: bringing one to the scaffold's, and where the two then differ.
+"""Aligns a depth estimate, which is known up to scale and shift, with the scaffold's depth, and finds where the two differ.
 
-Differences that a shift of the picture by a few pixels explains do not count: at a silhouette, an estimate between the depths on
-either side of it is right.
+Differences that a shift of the image by a few pixels explains do not count: at a silhouette, any estimate between the depths on
+its two sides is accepted.
 """
 
 import numpy as np
@@ -9,17 +9,17 @@ from jaxtyping import Bool, Float
 from scipy.ndimage import maximum_filter, minimum_filter
 
 ROUNDS = 20
-"""Of reweighting: the alignment moves by less than 1e-3 after ten."""
+"""Rounds of reweighting. After ten of them the alignment changes by less than 1e-3."""
 POINTS = 20_000
-"""Pixels from which an alignment is taken; two numbers need no more."""
+"""Size of the subsample of pixels from which scale and shift are estimated."""
 
 
 def align_depth(estimate: Float[np.ndarray, "n"], depth: Float[np.ndarray, "n"]) -> tuple[float, float]:
-    """(scale, shift) that brings an estimate to the depth with the least sum of absolute differences.
+    """(scale, shift) that minimises the sum of absolute differences between the aligned estimate and the depth.
 
-    By iteratively reweighted least squares, so that a wrong part of the image does not bend the rest. The scale is never
-    negative: what is nearer in the estimate is nearer. An estimate that falls where the depth rises (disparity, or front and back
-    confused) tells no more than a constant one: its scale is 0, its shift the median of the depth.
+    Computed by iteratively reweighted least squares, so that a wrong part of the image has little influence. The scale is never
+    negative, since a nearer pixel has a smaller estimate. An estimate that falls where the depth rises (such as disparity) is
+    treated as a constant: its scale is 0 and its shift is the median of the depth.
     """
     x, y = estimate.astype(np.float64), depth.astype(np.float64)
     floor = 1e-3 * max(float(np.abs(y).max()), np.finfo(np.float64).tiny)
@@ -39,7 +39,7 @@ def align_depth(estimate: Float[np.ndarray, "n"], depth: Float[np.ndarray, "n"])
 def aligned_depth(
     depth: Float[np.ndarray, "h w"], valid: Bool[np.ndarray, "h w"], estimate: Float[np.ndarray, "h w"]
 ) -> Float[np.ndarray, "h w"]:
-    """The estimate at the scale and shift of the depth where both are valid; 0 where it is not finite."""
+    """The estimate, scaled and shifted so that it fits the depth where both are valid; 0 where the estimate is not finite."""
     finite = np.isfinite(estimate)
     both = np.flatnonzero(valid & finite)
     some = both[:: max(len(both) // POINTS, 1)]
@@ -50,13 +50,13 @@ def aligned_depth(
 def disagreement(
     depth: Float[np.ndarray, "h w"], estimate: Float[np.ndarray, "h w"], *, radius: int, tolerance: float
 ) -> Bool[np.ndarray, "h w"]:
-    """Pixels at which an estimate lies outside of all that the scaffold's depth is nearby.
+    """Pixels at which an estimate lies outside the range of the scaffold's depth in their neighbourhood.
 
     Args:
-      depth: the scaffold's z-depth, metres, 0 where nothing is hit: there nothing disagrees.
-      estimate: depth up to scale and shift; pixels that are not finite disagree.
-      radius: pixels, along rows and columns, that a picture may be off.
-      tolerance: as a share of depth.
+      depth: the scaffold's z-depth in metres, 0 where nothing is hit; such pixels never disagree.
+      estimate: depth up to scale and shift; pixels at which it is not finite disagree.
+      radius: half the side of the (square) neighbourhood, in pixels.
+      tolerance: allowed difference as a share of depth.
     """
     hit = depth > 0
     if not (hit & np.isfinite(estimate)).any():

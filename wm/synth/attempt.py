@@ -1,6 +1,7 @@
-"""Painting one view: generate, verify, try again, and at the limit keep what agrees with the scaffold.
+"""Painting one view: generate an image, verify it, and try again with another seed if it fails.
 
-Images are rounded to 8 bits before they are used for anything, so that what is stored is exactly what went on.
+If every attempt fails, the best image is kept, and its mask holds the pixels that agree with the scaffold. Images are rounded to
+8 bits before anything else uses them, so that a run that reads them back from its folder computes the same result.
 """
 
 import dataclasses
@@ -20,19 +21,19 @@ from wm.types import GBuffer
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class PaintedView:
-    """A finished view: all that a later run needs to go on as if it had painted it itself."""
+    """A finished view: everything that a later run needs to continue as if it had painted the view itself."""
 
     rgb: np.ndarray  # [h, w, 3] uint8 sRGB
     mask: np.ndarray  # [h, w] bool: pixels that may be used
-    recall: float | None  # depth-edge recall; None where the test was off, did not apply or had no estimate
+    recall: float | None  # depth-edge recall; None if the test was off, did not apply or had no depth estimate
     attempts: int  # images generated
-    accepted: bool  # whether one passed; otherwise the mask says where the best one agrees
-    reference: str | None  # name of the view its style came from
+    accepted: bool  # whether an image passed; if not, the mask holds the pixels at which the best one agrees
+    reference: str | None  # name of the view that served as style reference
     condition: np.ndarray  # [h, w, 3] uint8, what the image model was shown
 
 
 def attempt_seed(seed: int, view: int, attempt: int) -> int:
-    """The seed of one attempt at one view: stable, and different for every (seed, view, attempt)."""
+    """The seed of one attempt at one view, derived from (seed, view, attempt)."""
     return int(np.random.SeedSequence([seed, view, attempt]).generate_state(1)[0])
 
 
@@ -45,18 +46,18 @@ def paint_view(
     identity: tuple[int, int],
     reference: str | None,
 ) -> PaintedView:
-    """One finished view: generated until an image passes; at the limit the one that comes nearest, where it agrees.
+    """Generates images of a view until one passes; if none does, keeps the best one where it agrees with the scaffold.
 
     Args:
-      request: what the image model is asked; its seed is set for each attempt.
-      shown: the G-buffer of the conditioning scaffold, to which the image is held.
-      image, depth: the backends.
-      settings: verification.
-      identity: (the scene's seed, the view's index), from which the attempts' seeds derive.
-      reference: name of the view that the request's style came from.
+      request: the request to the image model; its seed is replaced in each attempt.
+      shown: the G-buffer of the conditioning scaffold, against which the image is verified.
+      image, depth: the image backend and the depth backend.
+      settings: settings of the verification.
+      identity: (seed of the scene, index of the view), from which the seed of each attempt is derived.
+      reference: name of the view that served as style reference.
 
     Raises:
-      ValueError: a backend returned something that is no image, or no estimate of depth, of the view's size.
+      ValueError: a backend returned something other than an image, or a depth estimate, of the view's size.
     """
     edges = binding_edges(shown, request.condition, settings)
     held = shown.depth if request.condition.objects == "textured" else None
@@ -89,14 +90,17 @@ def paint_view(
 
 
 def _nearness(estimate: np.ndarray | None, verdict: Verdict) -> tuple[bool, float, float]:
-    """By what of the attempts that failed one is kept: that its depth can be told, without which none of it can be used, then
-    its recall (where that does not apply nothing is missing), then the least disagreement."""
+    """The sort key by which the best of the failed attempts is chosen.
+
+    First, whether there is a depth estimate, since without one no pixel can be used; then the recall (1 where recall does not
+    apply); then the smallest disagreement.
+    """
     told = estimate is not None and bool(np.isfinite(estimate).any())
     return told, 1.0 if verdict.recall is None else verdict.recall, -(verdict.disagreement or 0.0)
 
 
 def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Bool[np.ndarray, "h w"]:
-    """The conditioning scaffold's depth edges that an image must have: of a box, whose filling is open, none."""
+    """The depth edges of the conditioning scaffold that an image must have. Edges of boxes are left out."""
     edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
     if condition.objects != "boxes" or condition.object is None:
         return edges
@@ -105,10 +109,10 @@ def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings
 
 
 def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """[0, 1] to 8 bits, rounded."""
+    """An image in [0, 1], rounded to 8 bits."""
     return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
 
 
 def as_float(rgb: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w 3"]:
-    """8 bits to float32 in [0, 1]."""
+    """An 8-bit image as float32 in [0, 1]."""
     return rgb.astype(np.float32) / np.float32(255)

@@ -1,8 +1,8 @@
-"""What a backend must offer: one protocol a group, and the records that go in and come out.
+"""The protocols of backends, one per group, and the records that they take and return.
 
-Real models see only what the paper's would (condition, reference, prompt, seed); the offline ones may also look at the scene they
-were made for. What a backend returns is checked where it comes in (wm.synth.checked); how one is selected, and how a model of
-one's own is plugged in, says wm.synth.registry.
+Real models are given only what the paper gives its models (condition, reference, prompt, seed); the offline stand-ins may also
+look at the scene that they were made for. wm.synth.checked checks what a backend returns. wm.synth.registry describes how a
+backend is selected and how a model of your own is added.
 """
 
 import dataclasses
@@ -33,11 +33,11 @@ class Condition:
     """What the image model is shown of the scaffold from one camera: the X of the paper."""
 
     rgb: np.ndarray  # [h, w, 3] float32 sRGB in [0, 1]: textured objects, blended accumulated texture, grayscale depth elsewhere
-    known: np.ndarray  # [h, w] float32 in [0, 1]: how far rgb shows appearance and not depth
+    known: np.ndarray  # [h, w] float32 in [0, 1]: 1 where rgb shows appearance, 0 where it shows depth
     depth: np.ndarray  # [h, w] float32 z-depth of the conditioning scaffold, metres, 0 where nothing is hit
-    objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none; so that a box is not taken for a crate
-    object: np.ndarray | None = None  # [h, w] bool: where the scaffold has an object, boxes included; None for nowhere
-    wall_texture: bool = True  # whether the scaffold shows texture where views have left some: what one view decides, others see
+    objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none
+    object: np.ndarray | None = None  # [h, w] bool: where the scaffold has an object or a box; None for nowhere
+    wall_texture: bool = True  # whether the scaffold shows the texture that finished views have left on it
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -45,20 +45,20 @@ class ImageRequest:
     """What an image model is asked for one view."""
 
     condition: Condition
-    reference: np.ndarray | None  # [h, w, 3] float32 sRGB in [0, 1], for style a finished view; to furnish, the room furnished
+    reference: np.ndarray | None  # [h, w, 3] float32 sRGB in [0, 1]: a finished view (paint), another image of the room (furnish)
     prompt: str
     view: View
     seed: int
-    task: Literal["paint", "furnish"] = "paint"  # the view as the scaffold has it | the empty room that it has, furnished
+    task: Literal["paint", "furnish"] = "paint"  # draw the scaffold as it is | draw its empty room with furniture
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ImageResult:
-    """What an image model made of it."""
+    """The answer of an image model to a request."""
 
     rgb: np.ndarray  # [h, w, 3] floating sRGB in [0, 1], of the size of the view's camera (wm.synth.checked)
-    drawn_depth: np.ndarray | None = None  # [h, w] what an offline model knows it drew; real models have none
-    drawn_object: np.ndarray | None = None  # [h, w] int32 likewise: index into drawn_labels, OUTSIDE for structure
+    drawn_depth: np.ndarray | None = None  # [h, w] the depth that an offline model drew; None from real models
+    drawn_object: np.ndarray | None = None  # [h, w] int32, from offline models: index into drawn_labels, OUTSIDE for structure
     drawn_labels: tuple[str, ...] = ()
 
 
@@ -84,15 +84,15 @@ class Observation:
 class Reconstruction:
     """One instance as a mesh of its own."""
 
-    thing: SceneObject  # in the frame of the first observation's camera; its slots in the colours that the images show
-    seen: np.ndarray  # [s] bool: slots whose colour an image shows; the others have their usual one
+    thing: SceneObject  # in the frame of the first observation's camera; its slots have the colours that the images show
+    seen: np.ndarray  # [s] bool: slots whose colour an image shows; the others have the usual colour of their material
     usual: np.ndarray  # [s, 3] float32 sRGB: the slots' usual colours
-    residual: float  # metres between the points seen and the mesh, median
+    residual: float  # median distance between the observed points and the mesh, metres
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class ModelSettings:
-    """The settings of the models that an image-driven objects backend asks."""
+    """The settings of the models that an image-driven objects backend uses."""
 
     image: BackendSettings
     depth: BackendSettings
@@ -103,48 +103,48 @@ class ModelSettings:
 @runtime_checkable
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:
-        """One image Phi(X, reference, theme; seed); the same request gives the same image."""
+        """One image Phi(X, reference, theme; seed). Equal requests give equal images."""
         ...
 
 
 @runtime_checkable
 class PrefetchingBackend(ImageBackend, Protocol):
-    """An image backend that can begin on views before their conditions are known."""
+    """An image backend that can start work on views before their conditions are known."""
 
     def prefetch(self, views: Sequence[View]) -> None:
-        """The views that come next, soonest first."""
+        """Announces the views that will be requested next, in that order."""
         ...
 
 
 @runtime_checkable
 class WorldBackend(ImageBackend, Protocol):
-    """An image backend that also knows the world it paints: the ground truth of held-out views."""
+    """An image backend that also knows the world that it paints, and so the ground truth of held-out views."""
 
     def truth(self, view: View) -> np.ndarray:
-        """[h, w, 3] the image that the exact world would show, as `ImageResult.rgb`. Several threads call it at once."""
+        """[h, w, 3] the true image of a view, as in `ImageResult.rgb`. Several threads may call this at the same time."""
         ...
 
 
 @runtime_checkable
 class ImaginingBackend(ImageBackend, Protocol):
-    """An image backend that can tell beforehand which furniture its answers to the task "furnish" will show."""
+    """An image backend that knows in advance which furniture its images for the task "furnish" will show."""
 
     def imagined(self) -> Sequence[SceneObject]:
-        """The furniture of all rooms in world space. Cameras that are to see a room furnished are kept clear of it."""
+        """The furniture of all rooms in world space. Bootstrap cameras of furnished rooms are placed clear of it."""
         ...
 
 
 @runtime_checkable
 class LanguageBackend(Protocol):
     def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> str:
-        """A floor plan as JSON text; `violations` and `previous` carry what was wrong with the last proposal."""
+        """A floor plan as JSON text. `previous` is the last proposal and `violations` are the rules that it broke."""
         ...
 
 
 @runtime_checkable
 class ObjectsBackend(Protocol):
     def furnish(self, context: SceneContext, room: int) -> list[SceneObject]:
-        """The objects of one room, placed in world space, as densely as the context wants them."""
+        """The objects of one room in world space; `context.density` says how many."""
         ...
 
 
@@ -153,14 +153,14 @@ class ImageDrivenBackend(ObjectsBackend, Protocol):
     """An objects backend that furnishes rooms from images of them."""
 
     def with_models(self, models: "ModelSettings") -> ObjectsBackend:
-        """The same backend, its images drawn, segmented and turned into meshes by the backends that these select."""
+        """The same backend, which draws, segments and reconstructs by the models that these settings select."""
         ...
 
 
 @runtime_checkable
 class SegmentationBackend(Protocol):
     def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
-        """The instances in an image; none of them is structure (walls, doors, windows)."""
+        """The instances in an image, without structure (walls, doors, windows)."""
         ...
 
 
@@ -169,27 +169,27 @@ class ReconstructionBackend(Protocol):
     def reconstruct(
         self, label: str, observations: Sequence[Observation], site: Site, room: int, *, seed: int
     ) -> Reconstruction | None:
-        """One instance from one or more observations of it; None where they show too little."""
+        """One instance reconstructed from one or more observations; None if they show too little of it."""
         ...
 
 
 @runtime_checkable
 class DepthBackend(Protocol):
     def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
-        """[h, w] floating, of the image's size: how far away each pixel is; None where no estimate can be given.
+        """[h, w] floating-point depth of each pixel, of the size of the image; None if no estimate can be given.
 
-        It is z-depth up to a positive scale and a shift, neither of which is known: larger is farther, and zero and negative
-        values are as good as others. So it is not disparity: a model that gives inverse depth gives its reciprocal here, which
-        takes one that knows the shift of its inverse depth. NaN, and nothing else, says that a pixel has no estimate (infinities
-        are taken for it); verification counts such a pixel as one that disagrees.
+        It is z-depth up to an unknown positive scale and an unknown shift: larger is farther, and zero and negative values are
+        valid. It is not disparity: a model that predicts inverse depth must return the reciprocal, for which it must know the
+        shift of its inverse depth. NaN marks a pixel without an estimate (infinities are read as NaN); verification counts such
+        a pixel as one that disagrees.
         """
         ...
 
 
 @runtime_checkable
 class ClosableBackend(Protocol):
-    """A backend of any group that holds more than Python frees by itself, such as processes or a device's memory."""
+    """A backend of any group that holds resources which Python does not free by itself, such as processes or device memory."""
 
     def close(self) -> None:
-        """Ends what it holds. Whoever made the backend closes it, also after an error; closing twice is closing once."""
+        """Frees the resources. Whoever made the backend closes it, also after an error; closing it twice is allowed."""
         ...

@@ -2,8 +2,8 @@
 
 Source: J. Canny, "A Computational Approach to Edge Detection", 1986, in the form of OpenCV's `Canny(image, 255 low, 255 high)`
 (3 x 3 Sobel on 8 bits with replicated borders, magnitude |gx| + |gy|, direction by quadrants with tan 22.5 degrees in 15-bit
-fixed point, 8-connected hysteresis), which is what the paper's thresholds are for. Written from that definition; OpenCV is not
-needed.
+fixed point, 8-connected hysteresis), for which the paper's thresholds are given. It is written from that definition and does
+not need OpenCV.
 
 scikit-image's `canny` scales the gradient, measures its magnitude and interpolates differently: at the same thresholds it has the
 same pixels in none of 128 views of two scenes, and an edge within 10 pixels of 92% of these edges on average, of 56% in the worst
@@ -21,21 +21,21 @@ _TAN_22 = 13573  # tan(22.5 degrees) * 2^15, rounded
 def depth_edges(
     depth: Float[np.ndarray, "h w"], hit: Bool[np.ndarray, "h w"], *, low: float, high: float
 ) -> Bool[np.ndarray, "h w"]:
-    """Where a depth map steps or folds sharply.
+    """The pixels at which a depth map has a sharp step or fold.
 
     Args:
       depth: any affine measure of depth; the result does not change under a positive scale and a shift.
-      hit: pixels whose depth counts; the others stand at the largest depth that does. Values that are not finite do not count.
+      hit: pixels with a valid depth; the others get the largest valid depth. Values that are not finite are not valid.
       low, high: hysteresis thresholds as shares of the depth range.
 
     Returns:
-      Edge pixels, one wide; none where the range is empty.
+      Edges one pixel wide; no edges if all valid depths are equal.
     """
     return canny(normalized_depth(depth, hit), low=low, high=high)
 
 
 def normalized_depth(depth: Float[np.ndarray, "h w"], hit: Bool[np.ndarray, "h w"]) -> UInt8[np.ndarray, "h w"]:
-    """Depth over its own range as 8 bits, 0 the nearest; misses are at 255."""
+    """Depth scaled from its own range to 8 bits: 0 is the nearest, 255 the farthest; invalid pixels are 255."""
     valid = hit & np.isfinite(depth)
     if not valid.any():
         return np.zeros(depth.shape, np.uint8)
@@ -47,7 +47,7 @@ def normalized_depth(depth: Float[np.ndarray, "h w"], hit: Bool[np.ndarray, "h w
 
 
 def canny(image: UInt8[np.ndarray, "h w"], *, low: float, high: float) -> Bool[np.ndarray, "h w"]:
-    """Canny edges of an 8-bit image; thresholds as shares of 255, exclusive."""
+    """Canny edges of an 8-bit image. The thresholds are shares of 255, and a magnitude must exceed them."""
     gx, gy = _sobel(image)
     magnitude = np.abs(gx) + np.abs(gy)
     candidates = (magnitude > np.floor(255 * low)) & _is_ridge(magnitude, gx, gy)
@@ -65,7 +65,7 @@ def _sobel(image: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _is_ridge(magnitude: np.ndarray, gx: np.ndarray, gy: np.ndarray) -> np.ndarray:
-    """Non-maximum suppression along the gradient: left-right, up-down or along a diagonal; plateaus keep one side."""
+    """Non-maximum suppression along the gradient, in one of four directions. Of equal neighbours one is kept."""
     padded = np.pad(magnitude, 1)
     height, width = magnitude.shape
 

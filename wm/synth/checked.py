@@ -1,7 +1,7 @@
-"""What backends return, checked where it comes in: here an error can name the view, and what would be right.
+"""Checks of what backends return, made as soon as it is returned, so that an error can name the view and the expected value.
 
-A model plugged in for the first time mostly gets one of these wrong: bytes for floats, [-1, 1] for [0, 1], channels first, a
-tensor of its framework, the size that it works at and not the one that it was asked for.
+Common mistakes of a model that is plugged in for the first time: bytes instead of floats, [-1, 1] instead of [0, 1], channels
+first, a tensor of its framework instead of a NumPy array, or its own image size instead of the requested one.
 """
 
 from typing import Any
@@ -12,15 +12,15 @@ from jaxtyping import Float
 from wm.types import View
 
 SLACK = 0.01
-"""By how much an image may leave [0, 1]: what rounding and resampling overshoot by. It is clipped."""
+"""How far values of an image may lie outside [0, 1], since rounding and resampling can overshoot. They are clipped."""
 
 
 def checked_image(rgb: Any, view: View) -> Float[np.ndarray, "h w 3"]:
-    """An image backend's picture of a view as float32 in [0, 1].
+    """The image of a view that an image backend returned, as float32 in [0, 1].
 
     Raises:
-      ValueError: it is no floating [h, w, 3] array of the view's size, or has values that are not finite or outside [0, 1] by
-        more than SLACK; the message names view, shape, dtype and range.
+      ValueError: it is not a floating-point [h, w, 3] array of the view's size, or has values that are not finite or lie more
+        than SLACK outside [0, 1]; the message names view, shape, dtype and range.
     """
     where = f"view {view.name}: the image backend returned"
     shape = (view.camera.height, view.camera.width, 3)
@@ -34,16 +34,16 @@ def checked_image(rgb: Any, view: View) -> Float[np.ndarray, "h w 3"]:
 
 
 def checked_estimate(estimate: Any, view: View) -> Float[np.ndarray, "h w"] | None:
-    """A depth backend's estimate for a view as float32, NaN wherever it is not finite; None stays None.
+    """The depth estimate that a depth backend returned, as float32 with NaN for every value that is not finite; None stays None.
 
     Raises:
-      ValueError: it is no floating [h, w] array of the view's size; the message names view, shape and dtype.
+      ValueError: it is not a floating-point [h, w] array of the view's size; the message names view, shape and dtype.
     """
     if estimate is None:
         return None
     where = f"view {view.name}: the depth backend returned"
     _check_array(estimate, (view.camera.height, view.camera.width), where, "an estimate is floating, NaN where there is none")
-    with np.errstate(over="ignore"):  # what float32 cannot hold is no depth
+    with np.errstate(over="ignore"):  # a value beyond the range of float32 becomes infinite, hence NaN
         single = estimate.astype(np.float32)
     return np.where(np.isfinite(single), single, np.float32(np.nan))
 

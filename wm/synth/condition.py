@@ -1,9 +1,9 @@
-"""What the image model is shown of the scaffold: the condition X (paper, "Mesh-Conditioned Image Synthesis").
+"""The condition X: what the image model is shown of the scaffold (paper, "Mesh-Conditioned Image Synthesis").
 
-Objects carry their own colours under a headlight, so that their form reads; structure shows the texture accumulated so far,
-blended over depth by its alpha; all else is depth in grey, nearer is brighter, over one range for the whole scene (per view,
-one grey would mean different depths in different views). The variants of the paper's modality ablation leave out the wall
-texture, show objects as grey boxes, or have none.
+Objects have their own colours, shaded as by a light at the camera so that their form is visible. Structure shows the texture
+accumulated so far, blended over depth by its alpha. Everything else is depth in grey, brighter where nearer, over one range for
+the whole scene, so that a grey value means the same depth in every view. The variants of the paper's modality ablation leave out
+the wall texture, show objects as grey boxes, or show no objects.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ from wm.types import OUTSIDE, Atlas, Camera, GBuffer, Mesh, SceneObject
 
 _DEFAULTS = ConditionConfig()
 _TEXTURE_DEFAULTS = TextureSettings()
-_AMBIENT = 0.4  # brightness of a surface seen edge-on; seen head-on it has its own colour
+_AMBIENT = 0.4  # brightness of a surface seen edge-on, as a factor of its own colour; seen head-on the factor is 1
 
 
 def make_condition(
@@ -38,17 +38,17 @@ def make_condition(
     """The condition X of one camera.
 
     Args:
-      gbuffer: what the camera sees of the conditioning scaffold.
+      gbuffer: the G-buffer of the conditioning scaffold from the camera.
       camera: the camera of that G-buffer.
-      atlas: the texture accumulated so far, None for none yet.
-      mesh: the conditioning scaffold itself: structure faces first, then those of `objects` in order (`assemble_scene`).
-      objects: the scaffold's objects; only the textured variant looks at them.
+      atlas: the texture accumulated so far; None if there is none yet.
+      mesh: the mesh of the conditioning scaffold: structure faces first, then those of `objects` in order (`assemble_scene`).
+      objects: the scaffold's objects; only the textured variant uses them.
       depth_range: (near, far) of the scene, metres.
       settings: which signals are shown.
       texture: how the atlas is read.
 
     Raises:
-      ValueError: an unknown objects mode, an empty depth range, or objects that are not the mesh's.
+      ValueError: an unknown objects mode, an empty depth range, or objects other than those of the mesh.
     """
     check_settings("condition", settings)
     grey = depth_grey(gbuffer, depth_range)
@@ -71,7 +71,7 @@ def make_condition(
 
 
 def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.ndarray, "h w"]:
-    """Depth as grey: 1 at the near end of the range, 0 at the far end, beyond it and where nothing is hit."""
+    """Depth as grey: 1 at the near end of the range, 0 at its far end, beyond it, and where nothing is hit."""
     near, far = depth_range
     if not near < far:
         raise ValueError(f"the scene's depth range must have near < far, got {near} .. {far}")
@@ -80,7 +80,7 @@ def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.n
 
 
 def _headlight(gbuffer: GBuffer, camera: Camera, shown: np.ndarray) -> np.ndarray:
-    """[n] float32 brightness of the pixels of a mask under a lamp at the camera."""
+    """[n] float32 brightness of the pixels of a mask, lit from the camera."""
     columns, rows = ray_basis(camera)
     y, x = np.nonzero(shown)
     rays = (columns[x] + rows[y]).astype(np.float32)

@@ -1,4 +1,4 @@
-"""The furniture of a configuration, for the furnish stage and for callers without a run folder."""
+"""Furnishes the scene of a configuration, for the furnish stage and for callers without a run folder."""
 
 import contextlib
 import dataclasses
@@ -19,7 +19,7 @@ class Furnisher:
     """The objects backend of a configuration."""
 
     backend: ObjectsBackend
-    keys: tuple[Any, ...]  # what a stage's key says of it and of the models that it asks, for these shape the furniture too
+    keys: tuple[Any, ...]  # for a stage's key: the backend, and the models that it uses, since they shape the furniture
 
     def furnish(self, context: SceneContext, *, done: Callable[[], object] = lambda: None) -> list[SceneObject]:
         """The objects of all rooms; `done` is called after each room. The backend is closed at the end, also after an error."""
@@ -33,7 +33,7 @@ class Furnisher:
 
 
 def make_furnisher(config: RunConfig, context: SceneContext) -> Furnisher:
-    """The selected objects backend; one that is image-driven asks the selected models."""
+    """The Furnisher of the selected objects backend. An image-driven backend uses the selected models."""
     backend: ObjectsBackend = make_backend("objects", config.objects, context)
     own = backend_key(config.objects)
     if not isinstance(backend, ImageDrivenBackend):
@@ -52,11 +52,11 @@ def bare_context(config: RunConfig, plan: FloorPlan) -> SceneContext:
 
 
 def furnished_context(config: RunConfig) -> SceneContext:
-    """The scene that a run of this configuration furnishes, in memory: plan, structure and furniture.
+    """The furnished scene of this configuration, computed in memory: plan, structure and furniture.
 
     Raises:
       ProposalError: the language backend finds no valid plan.
-      PlanError: `plan.file` holds none.
+      PlanError: `plan.file` does not hold a valid plan.
     """
     plan = _plan(config)
     bare = bare_context(config, plan)

@@ -1,13 +1,12 @@
-"""Painting the scene: every view in turn is conditioned on the scaffold, generated, verified, and projected back into the
-texture.
+"""Paints the scene: each view is conditioned on the scaffold, generated, verified, and projected into the texture atlas.
 
-Per room, in the order of `paint_order`: condition X from the scaffold and the texture so far; image = Phi(X, reference, prompt;
-seed); verify; on failure again with another seed; after the last attempt the best one is kept where it agrees with the
-scaffold. Images are rounded to 8 bits before they are used for anything, so what is stored is exactly what went on, and a run
-that is fed its stored views back ends with the same bytes.
+In each room, in the order of `paint_order`: the condition X is made from the scaffold and the texture so far; the image is
+Phi(X, reference, prompt; seed); it is verified; if it fails, another seed is tried; if the last attempt fails too, the best image
+is used where it agrees with the scaffold. Images are rounded to 8 bits before anything else uses them, so that a run that
+resumes from its stored views ends with the same bytes.
 
-Tiers of work: per scene, the atlas and the depth range; per view, one G-buffer (two where the conditioning scaffold is another);
-per attempt, one image and one depth estimate. Memory: the atlas, one view, and the room's finished images.
+Work per scene: the atlas and the depth range. Per view: one G-buffer (two if the conditioning scaffold is another one). Per
+attempt: one image and one depth estimate. Memory: the atlas, one view, and the finished images of the room.
 """
 
 import dataclasses
@@ -26,13 +25,13 @@ from wm.synth.condition import make_condition
 from wm.synth.order import paint_order
 from wm.types import Atlas, GBuffer, SceneObject, View
 
-_AHEAD = 3  # views, the current one among them, that a backend is told of
-_RANGE_SCALE = 1 / 8  # resolution at which the scene's depth range is looked up
+_AHEAD = 3  # number of views, including the current one, that are announced to a backend
+_RANGE_SCALE = 1 / 8  # image size, relative to the view, at which the scene's depth range is measured
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Scaffold:
-    """A structure with objects, ready to be cast: `scene.mesh` holds structure faces, then those of `objects` in order."""
+    """A structure with objects, ready for raycasts: `scene.mesh` holds structure faces, then those of `objects` in order."""
 
     scene: RayScene
     objects: tuple[SceneObject, ...]
@@ -49,8 +48,8 @@ class PaintSettings:
 class PaintSummary:
     atlas: Atlas  # the accumulated texture
     order: tuple[str, ...]  # view names as they were painted
-    yield_share: float  # share of the planned views that were accepted; 1 of none
-    atm: float | None  # mean attempts per accepted view; None where none was accepted
+    yield_share: float  # share of the planned views that were accepted; 1 if no view is planned
+    atm: float | None  # mean number of attempts per accepted view; None if no view was accepted
 
 
 def paint_scene(
@@ -70,21 +69,21 @@ def paint_scene(
     """Paint all views, room by room.
 
     Args:
-      views: the planned views; of each room, those of kind "bootstrap" are painted first.
-      scaffold: the true one: occlusion and texture.
-      conditioning: the one that the image model is shown and held to; another than `scaffold` in the variants that replace
-        objects by boxes or leave them out. Its structure faces must be those of `scaffold`.
-      image, depth: the backends.
-      prompt: the words for a view, by the view and whether a style reference goes with them.
-      seed: of the scene; each attempt's seed derives from (seed, the view's index, attempt).
-      load: what `store` was given for a view, now or by an earlier run; None for a view that is not finished.
-      store: keeps a finished view, of which it is also given the true scaffold's G-buffer. It is called once a view, before
-        anything builds on it.
+      views: the planned views; in each room, those of kind "bootstrap" are painted first.
+      scaffold: the true scaffold, which decides occlusion and receives the texture.
+      conditioning: the scaffold that the image model is shown and images are verified against. It differs from `scaffold` in
+        the variants that replace objects by boxes or leave them out. Its structure faces must be those of `scaffold`.
+      image, depth: the image backend and the depth backend.
+      prompt: a function of a view, and of whether it has a style reference, to its prompt.
+      seed: seed of the scene; the seed of each attempt is derived from it, the index of the view and that of the attempt.
+      load: returns what `store` was given for a view, in this run or an earlier one; None for a view that is not finished.
+      store: keeps a finished view; it is also given the G-buffer of the true scaffold. It is called once per view, before
+        anything uses the view.
       settings: texture, condition and verification.
       progress: called after each view.
 
     Raises:
-      ValueError: a backend returned something that is no image, or no estimate of depth, of the view's size.
+      ValueError: a backend returned something other than an image, or a depth estimate, of the view's size.
       RuntimeError: a view that was stored cannot be loaded.
     """
     settings = settings or PaintSettings()
@@ -92,7 +91,7 @@ def paint_scene(
     depth_range = scene_depth_range(views, conditioning.scene) if views else (0.0, 1.0)
     attempts: list[int] = []
     order = _scene_order(views)
-    images: dict[int, np.ndarray] = {}  # of the room under way; those of earlier rooms are loaded when needed
+    images: dict[int, np.ndarray] = {}  # of the current room; those of earlier rooms are loaded when needed
     for place, (index, reference) in enumerate(order):
         view = views[index]
         if place and views[order[place - 1][0]].room != view.room:
@@ -152,7 +151,7 @@ def _condition(
 
 
 def scene_depth_range(views: Sequence[View], scene: RayScene) -> tuple[float, float]:
-    """(nearest, farthest) depth that any of the views sees, metres: the range over which condition depth is shown."""
+    """(smallest, largest) depth in any of the views, metres: the range over which the condition shows depth."""
     near, far = np.inf, -np.inf
     for view in views:
         gbuffer = cast(scene, scale_camera(view.camera, _RANGE_SCALE))
@@ -162,7 +161,7 @@ def scene_depth_range(views: Sequence[View], scene: RayScene) -> tuple[float, fl
 
 
 def _image_of(view: View, rgb: np.ndarray | None, load: Callable[[View], PaintedView | None]) -> np.ndarray:
-    """A finished view's image, from this room's memory or from where it was stored."""
+    """The image of a finished view: `rgb` if it is still in memory, otherwise loaded."""
     if rgb is None:
         painted = load(view)
         if painted is None:

@@ -1,4 +1,4 @@
-"""What image models are told, in our own words: one text for a view that is painted, one for an empty room to be furnished."""
+"""The prompts of image models, in our own words: one for painting a view, one for furnishing an empty room."""
 
 from collections.abc import Sequence
 
@@ -8,21 +8,21 @@ _FURNITURE = {
     "the room. No box remains, and no furniture stands where there is none.",
     "none": "The guide shows the room empty. Furnish it as such a room would be, and keep doorways free.",
 }
-"""By `condition.objects`: what the guide shows of them."""
+"""The sentence about furniture for each value of `condition.objects`."""
 _PLAIN = "No people, no lettering, no frame; natural exposure, everything in focus."
 
 
 def image_prompt(
     theme: str, room: str, sights: Sequence[str] = (), *, objects: str = "textured", has_reference: bool = True
 ) -> str:
-    """What an image model is asked for one view.
+    """The prompt for painting one view.
 
     Args:
       theme: the scene in words.
       room: the name of the room the camera stands in.
-      sights: what the view shows of doors and windows, e.g. "a doorway on the left" (wm.synth.sights).
-      objects: what the guide shows of furniture: textured | boxes | none.
-      has_reference: whether a finished view of the same place goes with the guide.
+      sights: the doors and windows in the view, such as "a doorway on the left" (wm.synth.sights).
+      objects: how the guide shows furniture: textured | boxes | none.
+      has_reference: whether a finished view of the same place is sent with the guide.
     """
     parts = [
         f"A photograph taken inside the {room} of this place: {theme}.",
@@ -41,13 +41,13 @@ def image_prompt(
 
 
 def furnish_prompt(theme: str, room: str, sights: Sequence[str] = (), *, has_reference: bool = False) -> str:
-    """What an image model is asked for an image of an empty room furnished, from which furniture is lifted.
+    """The prompt for drawing furniture into an empty room, from which it is then lifted.
 
     Args:
       theme: the scene in words.
       room: the name of the room.
-      sights: what the view shows of doors and windows.
-      has_reference: whether an image of the same room, furnished, from another camera goes with the guide.
+      sights: the doors and windows in the view.
+      has_reference: whether an image of the same furnished room from another camera is sent with the guide.
     """
     parts = [
         f"A photograph taken inside the {room} of this place: {theme}.",

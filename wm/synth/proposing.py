@@ -1,6 +1,7 @@
-"""Propose - validate - correct: asks a language backend for a floor plan until it keeps every rule.
+"""Propose - validate - correct: asks a language backend for a floor plan until a plan breaks no rule.
 
-One iteration is one answer of the backend (paper, table "Floor-plan layout-LLM backends": 1.3 to 3.2 of them, 79 to 252 s).
+One iteration is one answer of the backend. The paper needs 1.3 to 3.2 iterations and 79 to 252 s (table "Floor-plan layout-LLM
+backends").
 """
 
 import dataclasses
@@ -17,7 +18,7 @@ _SHOWN = 12  # violations in an error message
 
 @dataclasses.dataclass(frozen=True)
 class Attempt:
-    """One answer of the backend and what was wrong with it (nothing for the last)."""
+    """One answer of the backend and the rules that it broke (none if the plan is valid)."""
 
     text: str
     violations: tuple[str, ...]
@@ -26,7 +27,7 @@ class Attempt:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Proposal:
-    """A valid floor plan and how it came about."""
+    """A valid floor plan and the answers that led to it."""
 
     plan: FloorPlan
     iterations: int
@@ -35,7 +36,7 @@ class Proposal:
 
 
 class ProposalError(RuntimeError):
-    """No valid floor plan within the limit."""
+    """The backend gave no valid floor plan within the limit of iterations."""
 
     def __init__(self, transcript: tuple[Attempt, ...]):
         self.transcript = transcript
@@ -46,18 +47,18 @@ class ProposalError(RuntimeError):
 
 
 def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed: int, max_iterations: int) -> Proposal:
-    """Asks `backend` for a plan of these rooms until one is valid.
+    """Asks `backend` for a floor plan of these rooms until one is valid.
 
     Args:
-      backend: answers with JSON text; when it is asked again, it is given its last answer and the violations.
+      backend: the language backend; after an invalid answer it is given that answer and its violations.
       theme: the scene in words.
-      rooms: the names of the wanted rooms; a plan leaves none out, and may add rooms of sorts that lead to others (CONNECTING).
-      seed: of the scene.
-      max_iterations: how many answers are asked for at most; at least one is.
+      rooms: the names of the wanted rooms. A valid plan has all of them and no others, except rooms of the sorts CONNECTING.
+      seed: seed of the scene.
+      max_iterations: largest number of answers; at least one is asked for.
 
     Raises:
-      ValueError: there are no rooms, or an entry is no name.
-      ProposalError: every answer broke a rule; the message lists the violations of the last.
+      ValueError: `rooms` is empty, or an entry is not a valid name.
+      ProposalError: no answer was valid; the message lists the violations of the last one.
     """
     if not rooms:
         raise ValueError("the room programme is empty; name at least one room")
@@ -87,7 +88,7 @@ def _validated(text: str, rooms: list[str]) -> tuple[FloorPlan | None, list[str]
 
 
 def _programme_violations(plan: FloorPlan, rooms: list[str]) -> list[str]:
-    """Rooms that were asked for and are not there, and rooms that nobody asked for."""
+    """Violations for rooms of the programme that the plan lacks, and for rooms of the plan that are not in the programme."""
     wanted = Counter(" ".join(room.split()).lower() for room in rooms)
     there = Counter(" ".join(room.name.split()).lower() for room in plan.rooms)
     missing = [f"plan: programme: no room is named {name!r}, {count} wanted" for name, count in (wanted - there).items()]

@@ -1,17 +1,17 @@
-"""The registry: a settings record names the module of its backend, and that module alone is imported.
+"""The registry of backends: a settings record names the module of its backend, and only that module is imported.
 
 A backend is a module with
 
-    make(settings, context) -> a backend of its group's protocol (wm.synth.backends)
-    Settings                -> its own knobs: a dataclass that extends wm.schema.BackendSettings, its `backend` the module's path
-    VERSION                 -> a string that changes whenever its results do
+    make(settings, context) -> a backend that implements the protocol of its group (wm.synth.backends)
+    Settings                -> its settings: a dataclass that extends wm.schema.BackendSettings; `backend` is the module's path
+    VERSION                 -> a string that changes whenever its results change
 
-and a YAML that says `backend: <path>` in the folder of its group: conf/image/, or image/ in the folder that `--config-dir` names.
-Stages whose result depends on a backend are keyed by its path, its settings and its version. A module may also have
+and a YAML file with `backend: <path>` in the folder of its group: conf/image/, or image/ in the folder that `--config-dir` names.
+The key of a stage whose result depends on a backend contains its path, its settings and its version. A module may also have
 
-    PROVIDES                -> of an image backend: what its results tell beyond the protocol, such as DRAWN
-    REQUIRES                -> which of that it needs of the image backend beside it
-    USES                    -> the groups of backends that it asks in its turn
+    PROVIDES                -> of an image backend: what its results contain beyond the protocol, such as DRAWN
+    REQUIRES                -> what it needs from PROVIDES of the selected image backend
+    USES                    -> the other groups of backends that it uses
 """
 
 import importlib
@@ -41,27 +41,27 @@ GROUPS: Mapping[str, type] = {
     "segmentation": SegmentationBackend,
     "reconstruction": ReconstructionBackend,
 }
-"""Every group of backends and its protocol. Each is a field of wm.schema.RunConfig and a folder of conf/."""
+"""Each group of backends with its protocol. Each group is a field of wm.schema.RunConfig and a folder of conf/."""
 
 DRAWN = "drawn"
-"""Of an image backend: its results tell what they drew (`ImageResult.drawn_*`), as no real model's do."""
+"""What an image backend provides whose results say what they show (`ImageResult.drawn_*`). Real models do not provide it."""
 
 
 class BackendError(InputError):
-    """A backend that cannot be used; the message names its path and what would be right."""
+    """A backend that cannot be used; the message names its path and what is expected."""
 
 
 def backend_module(path: str) -> ModuleType:
     """The module of a backend, imported.
 
     Raises:
-      BackendError: there is no such module, importing it fails, or it is no backend.
+      BackendError: there is no such module, importing it fails, or it is not a backend.
     """
     if not path:
         raise BackendError("no backend is selected; a settings record of a backend module, or GROUP=NAME of conf/, selects one")
     try:
         module = importlib.import_module(path)
-    except Exception as error:  # a module of anybody's may raise anything while it is imported
+    except Exception as error:  # a foreign module may raise any exception while it is imported
         raise BackendError(f"backend {path!r} cannot be imported: {type(error).__name__}: {error}") from error
     missing = [name for name in ("make", "Settings", "VERSION") if not hasattr(module, name)]
     if missing:
@@ -79,12 +79,13 @@ def make_backend(group: str, settings: BackendSettings, context: SceneContext | 
 
     Args:
       group: one of GROUPS.
-      settings: what selects it: the Settings of its module. A plain BackendSettings selects the module's defaults.
-      context: the scene; None for the language backend, which comes before it.
+      settings: the Settings of the backend's module. A plain BackendSettings selects the defaults of that module.
+      context: the scene; None for the language backend, which runs before there is a scene.
 
     Raises:
       ValueError: there is no such group.
-      BackendError: the module cannot be imported, the settings are another's, or what it makes is no backend of the group.
+      BackendError: the module cannot be imported, the settings belong to another module, or `make` does not return a backend
+        of the group.
     """
     if group not in GROUPS:
         raise ValueError(f"no group of backends is called {group!r}; groups: {', '.join(GROUPS)}")
@@ -100,25 +101,25 @@ def make_backend(group: str, settings: BackendSettings, context: SceneContext | 
 
 
 def backend_key(settings: BackendSettings) -> tuple[Any, ...]:
-    """What a stage's key says of a backend: its settings, which hold its path, and its version."""
+    """The entries of a stage's key for a backend: its settings, which contain its path, and its version."""
     return settings, backend_module(settings.backend).VERSION
 
 
 def close_backend(backend: Any) -> None:
-    """Ends what a backend holds, if it holds anything."""
+    """Frees the resources of a backend, if it holds any."""
     if isinstance(backend, ClosableBackend):
         backend.close()
 
 
 def model_settings(config: RunConfig) -> ModelSettings:
-    """The models of a run, for the objects backend that asks them."""
+    """The settings of the models of a run, for an image-driven objects backend."""
     return ModelSettings(
         image=config.image, depth=config.depth, segmentation=config.segmentation, reconstruction=config.reconstruction
     )
 
 
 def mismatch(group: str, settings: BackendSettings, image: BackendSettings) -> list[str]:
-    """What is wrong, if anything, with a backend of this group beside an image backend."""
+    """A list with an error message if a backend of this group needs more than the image backend provides, else an empty one."""
     needed = set(getattr(backend_module(settings.backend), "REQUIRES", ()))
     missing = needed - set(getattr(backend_module(image.backend), "PROVIDES", ()))
     if not missing:
@@ -128,7 +129,7 @@ def mismatch(group: str, settings: BackendSettings, image: BackendSettings) -> l
 
 
 def mismatches(config: RunConfig) -> list[str]:
-    """The backends of a run that do not go together, each with both of its groups, of those that the run will ask."""
+    """Error messages for the backends, among those that the run will use, that do not suit the selected image backend."""
     asked = {"depth"} if config.verify.enabled else set()
     if config.furnish.enabled:
         asked |= {"objects", *getattr(backend_module(config.objects.backend), "USES", ())}
@@ -136,7 +137,7 @@ def mismatches(config: RunConfig) -> list[str]:
 
 
 def misplaced(config: RunConfig) -> Iterator[str]:
-    """The groups of a run whose settings are not those of the backend that they name."""
+    """Error messages for the groups whose settings do not belong to the backend that they name."""
     for group in GROUPS:
         settings: BackendSettings = getattr(config, group)
         try:
@@ -146,7 +147,7 @@ def misplaced(config: RunConfig) -> Iterator[str]:
 
 
 def _own(settings: BackendSettings, module: ModuleType) -> BackendSettings:
-    """The settings as the module's own record."""
+    """The settings as an instance of the module's own `Settings`."""
     if type(settings) is BackendSettings:
         return module.Settings()
     if not isinstance(settings, module.Settings):

@@ -1,4 +1,4 @@
-"""What a view shows of a room's doors and windows, in words: so that no image model takes a doorway for a picture."""
+"""Describes in words the doors and windows in a view, so that an image model does not mistake a doorway for a picture."""
 
 import numpy as np
 import shapely
@@ -9,17 +9,17 @@ from wm.geometry.rays.pinhole import camera_center, project_points
 from wm.types import Camera
 
 _ASIDE = 0.35
-"""Tangent of the angle from the middle of the image beyond which something is on one side."""
+"""Tangent of the angle from the optical axis beyond which an opening is said to be on the left or the right."""
 _NEAR = 0.2
-"""Metres: what is nearer in front of the camera, such as the doorway it stands in, is not looked at."""
+"""Metres. Points nearer to the camera are ignored, such as those of a doorway in which it stands."""
 _POINTS = 5
-"""Of an opening that are looked for, along it and up it."""
+"""Number of sample points along the width of an opening, and along its height."""
 _SLACK = 0.02
-"""Metres by which a line of sight may graze a wall."""
+"""Metres by which a line of sight may leave the room's floor polygon."""
 
 
 def sights(camera: Camera, site: Site) -> list[str]:
-    """One phrase for each opening that lies in the image and is not behind a corner of the room; furniture may yet hide it."""
+    """One phrase for each opening that lies in the image and is not hidden by a wall of the room. Furniture is not considered."""
     found = []
     for wall, opening in site.openings:
         points = _points(opening, wall, site)
@@ -40,7 +40,7 @@ def _points(opening: WallOpening, wall: int, site: Site) -> Float[np.ndarray, "n
 
 
 def _clear(eye: Float[np.ndarray, "2"], points: Float[np.ndarray, "n 2"], room: shapely.Polygon) -> Bool[np.ndarray, "n"]:
-    """Points to which no wall of the room bars the way; all of them for an eye outside it, which looks in through a doorway."""
+    """Points that no wall of the room hides; all points if the eye is outside the room, looking in through a doorway."""
     if not shapely.contains_xy(room, *eye):
         return np.ones(len(points), bool)
     lines = shapely.linestrings(np.stack([np.broadcast_to(eye, points.shape), points], axis=1))

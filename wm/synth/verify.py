@@ -1,13 +1,13 @@
-"""Does a generated image keep the scaffold's structure? Depth-edge recall (paper, "Image Verification"), and depth itself.
+"""Verifies that an image keeps the scaffold's structure, by depth-edge recall (paper, "Image Verification") and by depth.
 
-recall = |E_M and dilate(E', delta)| / |E_M| with E_M the scaffold's depth edges and E' those of the depth estimated from the
-image. It counts missing structure only: things the model added are allowed. The paper does not say what follows when E_M is
-empty or no estimate can be had: here an empty E_M means that the test does not apply, and no estimate is no pass.
+recall = |E_M and dilate(E', delta)| / |E_M|, where E_M are the scaffold's depth edges and E' those of the depth estimated from
+the image. Recall measures missing structure only: things that the model added do not lower it. The paper leaves two cases open:
+if E_M is empty, recall does not apply here, and an image without a depth estimate fails.
 
-Recall is taken over the whole image, so one chair that is missing drowns in the edges of all else (experiments/verification).
-Where the condition shows all that there is, the image is therefore also held to the scaffold's depth: brought to its scale and
-shift, the estimate may disagree with it in a small share of the image only. A pixel without an estimate vouches for nothing: it
-counts as one that disagrees, also where the image is free to add things.
+Recall is computed over the whole image, so that one missing chair hardly changes it (experiments/verification). If the condition
+shows the objects themselves, the image is therefore also compared with the scaffold's depth: the aligned estimate may disagree
+with it in only a small share of the image. A pixel without an estimate counts as one that disagrees, also if the image may add
+things.
 """
 
 import dataclasses
@@ -19,18 +19,18 @@ from wm.schema import VerifySettings
 from wm.synth.alignment import disagreement
 from wm.synth.canny import depth_edges
 
-_REFERENCE_WIDTH = 1376  # the paper's images, for which VerifySettings.dilation is given
+_REFERENCE_WIDTH = 1376  # width of the paper's images, for which VerifySettings.dilation is given
 _LEAST_RADIUS = 2  # pixels: rasterisation alone moves an edge by one
 
 
 @dataclasses.dataclass(frozen=True)
 class Verdict:
-    """What verification says of one image."""
+    """The result of the verification of one image."""
 
     passed: bool
-    recall: float | None  # None where there was nothing to compare
-    disagreement: float | None  # share of the image whose depth disagrees or is not there; None where it was not compared
-    reason: str  # one clause for people
+    recall: float | None  # None if the scaffold has no depth edges in this view
+    disagreement: float | None  # share of the image whose depth disagrees or is missing; None if it was not compared
+    reason: str  # the result in words
 
 
 def verify(
@@ -40,16 +40,16 @@ def verify(
     *,
     depth: Float[np.ndarray, "h w"] | None = None,
 ) -> Verdict:
-    """Judge an image by the depth estimated from it.
+    """Verifies an image by the depth estimated from it.
 
     Args:
-      scaffold_edges: `depth_edges` of the scaffold's depth, made once a view.
-      estimate: depth up to scale and shift, NaN where there is none; None where the backend could not tell.
-      settings: thresholds; `enabled` False passes every image.
-      depth: the scaffold's depth, 0 where nothing is hit, to hold the image to; None where the image is free to add things.
+      scaffold_edges: `depth_edges` of the scaffold's depth.
+      estimate: depth up to scale and shift, NaN where there is no estimate; None if the backend gave no estimate at all.
+      settings: thresholds; if `enabled` is False, every image passes.
+      depth: the scaffold's depth, 0 where nothing is hit; None if the image may add things, so that depths are not compared.
 
     Raises:
-      ValueError: the estimate has another size than the scaffold's edges.
+      ValueError: the estimate and the scaffold's edges differ in size.
     """
     if not settings.enabled:
         return Verdict(passed=True, recall=None, disagreement=None, reason="verification is off")
@@ -77,7 +77,7 @@ def verify(
 
 
 def _apart(depth: np.ndarray | None, estimate: np.ndarray, radius: int, settings: VerifySettings) -> float | None:
-    """Share of the image that disagrees; of one that is not held to a depth, the share without an estimate, None for nothing."""
+    """Share of the image that disagrees with `depth`. If `depth` is None: the share without an estimate, or None if that is 0."""
     if depth is not None:
         return float(disagreement(depth, estimate, radius=radius, tolerance=settings.tolerance).mean())
     unknown = float(np.mean(~np.isfinite(estimate)))
@@ -85,21 +85,21 @@ def _apart(depth: np.ndarray | None, estimate: np.ndarray, radius: int, settings
 
 
 def edge_recall(scaffold_edges: Bool[np.ndarray, "h w"], image_edges: Bool[np.ndarray, "h w"], dilation: int) -> float | None:
-    """Share of the scaffold's edge pixels that have an edge of the image within `dilation` pixels; None if it has none."""
+    """Share of the scaffold's edge pixels with an image edge within `dilation` pixels; None if the scaffold has no edges."""
     if not scaffold_edges.any():
         return None
     return float(dilate(image_edges, dilation)[scaffold_edges].mean())
 
 
 def dilation_radius(settings: VerifySettings, width: int) -> int:
-    """The tolerance in pixels of an image of this width."""
+    """The radius of the dilation, in pixels, for an image of this width."""
     return max(_LEAST_RADIUS, round(settings.dilation * width / _REFERENCE_WIDTH))
 
 
 def dilate(edges: Bool[np.ndarray, "h w"], radius: int) -> Bool[np.ndarray, "h w"]:
-    """Pixels whose centre is within `radius` of an edge pixel's centre: a disk stamped on each of the (few) edge pixels.
+    """Pixels whose centre is within `radius` of the centre of an edge pixel. A disk is stamped on each of the (few) edge pixels.
 
-    scikit-image's `isotropic_dilation` is the same where there is an edge at all, and sets pixels of an image without one
+    scikit-image's `isotropic_dilation` gives the same result for an image with edges, but sets pixels of an image without edges
     (experiments/library_peers).
     """
     height, width = edges.shape

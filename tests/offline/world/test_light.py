@@ -15,7 +15,6 @@ from wm.offline.world.light import (
     BakeSettings,
     LightPoints,
     Sources,
-    bake,
     build_facets,
     build_probes,
     facet_weights,
@@ -24,6 +23,7 @@ from wm.offline.world.light import (
     room_charts,
     sun_direction,
 )
+from wm.offline.world.light.bake import bake
 from wm.offline.world.light.transport import directions_about, traced
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from wm.geometry.exchange.mesh_error import MeshError
-from wm.geometry.exchange.parts import Paint, Part, read_parts
+from wm.geometry.exchange.parts import MeshPart, Paint, read_parts
 from wm.geometry.exchange.vertex_color import blended, face_colors
 from wm.geometry.mesh.object_colors import texture_colors
 from wm.geometry.placement.support import support_of
@@ -97,7 +97,7 @@ def _up_of(path: Path) -> str:
     return "y" if path.suffix.lower() in (".glb", ".gltf") else "z"
 
 
-def _checked_parts(path: Path, label: str, up: str | None, unit: float) -> list[Part]:
+def _checked_parts(path: Path, label: str, up: str | None, unit: float) -> list[MeshPart]:
     """The parts of a file, its arguments and its coordinates in order."""
     if up not in (None, "y", "z"):
         raise MeshError(f"up is {up!r}; it must be 'y' or 'z', the axis of {path} that points up")
@@ -138,7 +138,7 @@ class _Colored:
     corner_uv: np.ndarray | None = None  # [f, 3, 2] in [0, 1]
 
 
-def _colored(part: Part, path: Path) -> _Colored:
+def _colored(part: MeshPart, path: Path) -> _Colored:
     alone = np.zeros(len(part.corners), np.int64)
     if part.corner_colors is not None:
         flat = face_colors(part.corner_colors)

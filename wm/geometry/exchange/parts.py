@@ -34,7 +34,7 @@ class Paint:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Part:
+class MeshPart:
     """Triangles of one material, in the frame and the unit of the file."""
 
     corners: np.ndarray  # [f, 3, 3] float64
@@ -43,7 +43,7 @@ class Part:
     corner_colors: np.ndarray | None = None  # [f, 3, 3] uint8 sRGB, in place of the paint's colour
 
 
-def read_parts(path: Path) -> list[Part]:
+def read_parts(path: Path) -> list[MeshPart]:
     """The parts of a file that have triangles.
 
     Raises:
@@ -94,7 +94,7 @@ def _files_beside(path: Path) -> Any:
     return Files()
 
 
-def _moved(part: Part, T: Float[np.ndarray, "4 4"]) -> Part:
+def _moved(part: MeshPart, T: Float[np.ndarray, "4 4"]) -> MeshPart:
     """A part after a node's transform, its winding turned where that mirrors. (`Scene.dump` would lose colours at vertices.)"""
     moved = dataclasses.replace(part, corners=part.corners @ T[:3, :3].T + T[:3, 3])
     if np.linalg.det(T[:3, :3]) >= 0:
@@ -107,23 +107,23 @@ def _moved(part: Part, T: Float[np.ndarray, "4 4"]) -> Part:
     )
 
 
-def _part(mesh: Any, header: GltfHeader | None, path: Path) -> Part:
+def _part(mesh: Any, header: GltfHeader | None, path: Path) -> MeshPart:
     corners = np.asarray(mesh.vertices, np.float64)[mesh.faces]
     if not hasattr(mesh.visual, "material"):
-        return Part(corners, Paint("unnamed", np.full(3, _GREY)), corner_colors=_corner_colors(mesh))
+        return MeshPart(corners, Paint("unnamed", np.full(3, _GREY)), corner_colors=_corner_colors(mesh))
     paint = _simple_paint(mesh.visual.material) if header is None else _gltf_paint(mesh.visual.material, header, path)
     uv = mesh.visual.uv
     if paint.image is not None and uv is not None and len(uv) == len(mesh.vertices):
         corner_uv = np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1).astype(np.float64)[mesh.faces]
         if not np.isfinite(corner_uv).all():
             raise MeshError(f"{path}: a texture coordinate of {paint.name!r} is not finite")
-        return Part(corners, paint, corner_uv=corner_uv)
+        return MeshPart(corners, paint, corner_uv=corner_uv)
     if paint.image is not None:
         raise MeshError(f"{path}: {paint.name!r} has a texture, and its mesh no texture coordinates: unwrap it first")
     colors = mesh.visual.vertex_attributes.get("color")
     if colors is None or len(colors) != len(mesh.vertices):
-        return Part(corners, paint)
-    return Part(corners, paint, corner_colors=_multiplied(np.asarray(colors), paint, header)[mesh.faces])
+        return MeshPart(corners, paint)
+    return MeshPart(corners, paint, corner_colors=_multiplied(np.asarray(colors), paint, header)[mesh.faces])
 
 
 def _corner_colors(mesh: Any) -> np.ndarray | None:

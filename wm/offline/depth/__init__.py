@@ -1,1 +1,4 @@
-"""The offline depth backend: estimator, what the painter drew as a monocular estimator would report it."""
+"""The offline depth backend.
+
+    estimator  what the painter drew, as a monocular depth estimator would report it
+"""

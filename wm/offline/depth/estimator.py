@@ -1,7 +1,7 @@
-"""The offline depth model: the depth that was drawn, as a monocular estimator would report it.
+"""The offline depth model: the depth that the painter drew, with the errors of a monocular depth estimator.
 
-Relative depth is what such models give: an unknown scale and shift, a relative error that varies slowly over the image, and edges
-that are softer than the surfaces'.
+Such estimators give relative depth: with an unknown scale and shift, a relative error that varies slowly over the image, and
+edges that are blurred.
 """
 
 import dataclasses
@@ -22,7 +22,7 @@ _KNOT = 24.0  # pixels over which the error is correlated, at 688 wide
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
 class Settings(BackendSettings):
-    """How wrong the estimates are."""
+    """The errors of the estimates."""
 
     backend: str = setting(__name__, "The offline depth model.")
     noise: float = number(0.01, 0, 10, "Relative error of the depth.")
@@ -36,7 +36,7 @@ class ProceduralDepth:
     config: Settings
 
     def estimate(self, result: ImageResult, *, seed: int) -> Float[np.ndarray, "h w"] | None:
-        """[h, w] float32 depth up to scale and shift, NaN where nothing was drawn; None for an image that carries no depth."""
+        """[h, w] float32 depth up to scale and shift, NaN where nothing was drawn; None for an image without drawn depth."""
         if result.drawn_depth is None:
             return None
         rng = np.random.default_rng(np.random.SeedSequence([seed, 0xDE97]))
@@ -51,12 +51,12 @@ class ProceduralDepth:
 
 
 def make(config: Settings, context: SceneContext | None) -> ProceduralDepth:
-    """The offline depth backend; it needs nothing of the scene."""
+    """The offline depth backend. It does not use the scene."""
     return ProceduralDepth(config=config)
 
 
 def _softened(depth: np.ndarray, drawn: np.ndarray, sigma: float) -> np.ndarray:
-    """Depth blurred by `sigma` pixels among the pixels that were drawn."""
+    """Depth blurred by a gaussian of `sigma` pixels, averaged over drawn pixels only."""
     if sigma <= 0:
         return depth
     weight = gaussian_filter(drawn.astype(np.float32), sigma, mode="nearest")

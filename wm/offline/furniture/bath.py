@@ -28,7 +28,7 @@ WHITE = (0.93, 0.92, 0.9)
 
 
 def vessel_of(rings: list[tuple[shapely.Polygon, float]]) -> Solid:
-    """A loft through outlines (each resampled to the same count of points) at their heights, closed by flat caps."""
+    """A loft through outlines at given heights, closed by flat caps. Each outline is resampled to the same number of points."""
     n = 40
     stack = []
     for outline, z in rings:
@@ -73,7 +73,7 @@ def tap(x: Real, y: Real, z: Real, reach: Real, height: Real, metal: str) -> lis
 
 
 def bathtub(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A tub with water: free-standing on feet where the style is ornate, a smooth oval or a tiled box otherwise."""
+    """A tub with water: on feet in ornate styles, otherwise a smooth oval or a tiled box."""
     w, d, h = size
     metal = "brass" if style.form.ornament > 0.3 else "chrome"
     feet = style.form.ornament > 0.3 and style.form.legs != "column"

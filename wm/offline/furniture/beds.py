@@ -1,4 +1,4 @@
-"""Beds: headboard, frame, mattress, pillows, blanket; four posts where the style is grand."""
+"""Beds: headboard, frame, mattress, pillows, blanket; and a four-poster bed."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from wm.offline.style.finish import Style
 
 
 def headboard(style: Style, w: Real, y: Real, low: Real, high: Real, *, wood: str) -> list[Part]:
-    """The board behind the pillows, between the heights low and high, in front of the plane y."""
+    """The board behind the pillows, between the heights `low` and `high`, in front of the plane y."""
     kind = style.form.back
     tall = high - low
     if kind == "pointed_arch":
@@ -62,7 +62,7 @@ def headboard(style: Style, w: Real, y: Real, low: Real, high: Real, *, wood: st
 
 
 def bed(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A bed whose head is at its back; its front is the foot."""
+    """A bed. Its head is at the back of the piece, its foot at the front."""
     w, d, h = size
     wood = frame_wood(style)
     form = style.form

@@ -1,4 +1,4 @@
-"""Every kind of furniture by name, and the one door through which pieces are built."""
+"""All kinds of furniture by name, and the function that builds a piece of a kind."""
 
 import numpy as np
 
@@ -42,8 +42,8 @@ def make_piece(kind: str, style: Style, rng: np.random.Generator, *, size: Size 
 
     Args:
       kind: key of KINDS; it is also the piece's label.
-      size: nominal width, depth and height in metres; drawn from the kind's range where None. Legs that splay, cornices and
-        taps may go a few centimetres beyond it: the piece's `size` is what was built.
+      size: nominal width, depth and height in metres; if None, they are drawn from the range of the kind. Splayed legs, cornices
+        and taps may extend a few centimetres beyond them; `size` of the piece is the size that was built.
 
     Raises:
       KeyError: no such kind.

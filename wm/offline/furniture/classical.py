@@ -1,4 +1,4 @@
-"""Seats of the ancients: the klismos with its sabre legs and bowed back rail, and the couch with scrolled ends."""
+"""Seats of antiquity: the klismos with sabre legs and a bowed back rail, and the couch with scrolled ends."""
 
 import math
 
@@ -28,7 +28,7 @@ def sabre_legs(w: Real, d: Real, seat: Real, *, sweep: Real = 0.06, thick: Real 
 
 
 def bowed(w: Real, y: Real, bow: Real, z: Real, height: Real, thick: Real) -> Solid:
-    """A rail of a height that runs from side to side about z, its ends `bow` metres before its middle at y."""
+    """A rail from side to side, centred at the height z. Its middle lies at y and its ends `bow` metres in front of that."""
     across = np.linspace(-1, 1, 9)
     path = np.stack([0.5 * w * across, y - bow * across**2, 0 * across], -1)
     round_ = tube(path, thick, 10, smooth=1)

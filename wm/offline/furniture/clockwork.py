@@ -1,4 +1,4 @@
-"""Clockwork: gear trains, a skeleton clock, an orrery, pipes. Wheels have teeth that mesh, in planes of their own thickness."""
+"""Clockwork: gear trains, a skeleton clock, an orrery, pipes. The teeth of neighbouring wheels mesh."""
 
 import dataclasses
 import itertools
@@ -16,7 +16,7 @@ from wm.offline.style.finish import Rgb, Style
 COPPER: Rgb = (0.68, 0.40, 0.25)
 VERDIGRIS: Rgb = (0.36, 0.56, 0.48)
 METALS: tuple[tuple[str, Rgb | None], ...] = (("brass", None), ("brass", COPPER), ("brass", VERDIGRIS), ("dark_metal", None))
-"""Slot and colour of wheels: brass, copper, copper gone green, iron."""
+"""Slots and colours of wheels: brass, copper, green copper, iron."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,10 +32,11 @@ class Wheel:
 
 
 def train(rng: np.random.Generator, first: Wheel, links: tuple[tuple[int, float, float], ...]) -> list[Wheel]:
-    """A first wheel and others that mesh in turn.
+    """The wheels of a gear train.
 
     Args:
-      links: of each wheel the index of the one that drives it, its teeth over the first's, and its direction in degrees.
+      links: for each wheel after the first: the index of the wheel that drives it, its number of teeth relative to that of the
+        first wheel, and its direction from the driving wheel in degrees.
     """
     wheels = [first]
     for k, (index, share, degrees) in enumerate(links):
@@ -52,7 +53,7 @@ def train(rng: np.random.Generator, first: Wheel, links: tuple[tuple[int, float,
 
 
 def fitted(wheels: list[Wheel], w: Real, h: Real) -> list[Wheel]:
-    """The train scaled to fit a width and a height, centred across, its lowest tooth at 0."""
+    """The train scaled to fit a width and a height, centred horizontally, with its lowest tooth at height 0."""
     tip = [1 + 2.0 / wheel.teeth for wheel in wheels]
     low_x = min(wheel.x - t * wheel.radius for wheel, t in zip(wheels, tip))
     high_x = max(wheel.x + t * wheel.radius for wheel, t in zip(wheels, tip))
@@ -64,7 +65,7 @@ def fitted(wheels: list[Wheel], w: Real, h: Real) -> list[Wheel]:
 
 
 def wheels_upright(wheels: list[Wheel], y: Real, thick: Real, back: Real) -> list[Part]:
-    """The wheels standing in the plane y, `thick` deep, each with a boss and an axle that reaches back to `back`."""
+    """The wheels upright in the plane y, `thick` deep. Each has a boss and an axle that extends to y = `back`."""
     parts: list[Part] = []
     for k in wheels:
         slot, color = METALS[k.metal]
@@ -78,7 +79,7 @@ def wheels_upright(wheels: list[Wheel], y: Real, thick: Real, back: Real) -> lis
 
 
 def wall_gears(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A train of wheels of different sizes on the wall, in mesh."""
+    """A gear train of wheels of different sizes on the wall."""
     w, d, h = size
     first = Wheel(0.0, 0.0, 1.0, int(rng.integers(22, 29)), float(rng.uniform(0, 1)), 0)
     links = ((0, 0.6, 28.0), (1, 0.42, -48.0), (0, 0.4, 140.0 if rng.random() < 0.5 else 205.0))
@@ -89,7 +90,7 @@ def wall_gears(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def skeleton_clock(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A great wall clock whose movement shows: chapter ring, twelve hours, hands, wheels behind them."""
+    """A large wall clock with a visible movement: chapter ring, twelve hours, hands, and wheels behind them."""
     w, d, _ = size
     r, back = w / 2, d / 2
     parts = of("brass", ring(r, 0.94 * r, -0.5 * d, back), ring(0.58 * r, 0.54 * r, -0.42 * d, back - 0.004))

@@ -26,7 +26,7 @@ TURNED = [
     (1.0, 0.82),
     (1.0, 1.0),
 ]
-"""Profile of a turned leg: radius over its largest, height over its length."""
+"""Profile of a turned leg: (radius as a share of the largest radius, height as a share of the length)."""
 
 COLUMN = [
     (1.0, 0.0),
@@ -79,7 +79,7 @@ def leg(kind: str, x: Real, y: Real, height: Real, thickness: Real, *, outward: 
 def legs(
     style: Style, width: Real, depth: Real, height: Real, thickness: Real, *, slot: str, kind: str | None = None
 ) -> list[Part]:
-    """Four legs under the corners of a footprint that they do not leave."""
+    """Four legs under the corners of a footprint. They do not extend beyond it."""
     name = kind or style.form.legs
     margin = thickness * (0.9 if name in ("tapered", "cabriole") else 0.62) + (0.012 if name == "cabriole" else 0.0)
     solids = []
@@ -90,7 +90,7 @@ def legs(
 
 
 def frame_wood(style: Style) -> str:
-    """Slot of the wood that a style builds frames of."""
+    """Slot of the wood of which a style builds frames."""
     if style.form.legs in ("tapered", "slab"):
         return "wood"
     if style.family in ("coastal", "minimalist"):
@@ -99,7 +99,7 @@ def frame_wood(style: Style) -> str:
 
 
 def front(style: Style, x0: Real, x1: Real, z0: Real, z1: Real, y: Real, *, slot: str, handle: str = "right") -> list[Part]:
-    """One door or drawer front before the plane y (it stands 2 cm proud towards -y), shaped by the style's panels.
+    """One door or drawer front, which projects 2 cm from the plane y towards -y. The style decides the shape of its panel.
 
     Args:
       handle: "right" or "left" for a door's knob, "centre" for a drawer's, "none".
@@ -154,7 +154,7 @@ def front(style: Style, x0: Real, x1: Real, z0: Real, z1: Real, y: Real, *, slot
 
 
 def tracery(width: Real, height: Real, border: Real, *, at: tuple[Real, Real], lancets: int = 2) -> shapely.Polygon:
-    """A gothic window's stonework: a pointed frame with lancets and a round eye between them cut out."""
+    """Gothic tracery: a pointed frame with cut-out lancets and a round opening between them."""
     x, z = at
     outer = arch("pointed", width, height, at=at)
     inner = outer.buffer(-border)
@@ -187,5 +187,5 @@ def candle(x: Real, y: Real, z: Real, height: Real, *, radius: Real = 0.011) -> 
 
 
 def spread(rng: np.random.Generator, value: Real, share: Real = 0.1) -> float:
-    """The value times 1 +- share, uniformly."""
+    """The value times a factor drawn uniformly from 1 - share to 1 + share."""
     return value * float(rng.uniform(1 - share, 1 + share))

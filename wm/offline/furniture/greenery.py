@@ -11,7 +11,7 @@ from wm.offline.style.finish import Style
 
 
 def leaf(root: Point3, azimuth: Real, rise: Real, length: Real, width: Real, droop: Real) -> Solid:
-    """A leaf that leaves its root at an angle above the horizon and bends down towards its tip."""
+    """A leaf that grows from its root at an angle above the horizontal and bends down towards its tip."""
     c, s = math.cos(azimuth), math.sin(azimuth)
     points, slope, r, z = [], rise, 0.0, 0.0
     steps = 5
@@ -24,7 +24,7 @@ def leaf(root: Point3, azimuth: Real, rise: Real, length: Real, width: Real, dro
 
 
 def blade(points: list[Point3], widths: list[float], across: tuple[Real, Real]) -> Solid:
-    """A thin closed strip along points, `widths` half-wide across a horizontal direction, folded along its middle."""
+    """A thin closed strip along points, folded along its middle. `widths` are its half widths in a horizontal direction."""
     rings = []
     for (x, y, z), half in zip(points, widths):
         ax, ay = across[0] * half, across[1] * half
@@ -144,7 +144,7 @@ def flowers(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def clipped(centre: Point3, radius: Real, rng: np.random.Generator, *, tall: Real = 1.0) -> Solid:
-    """A ball of clipped foliage: a sphere with a leafy unevenness."""
+    """A ball of clipped foliage: a sphere with small bumps."""
     sphere = ball((0, 0, 0), 1.0, 26)
     at = sphere.vertices * 9.0
     phase = rng.uniform(0, 6, 3)
@@ -175,7 +175,7 @@ def topiary(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def wall_ivy(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A climber on a trellis that stands in a shallow trough on the wall."""
+    """A climbing plant on a trellis in a shallow trough on the wall."""
     w, d, h = size
     back = d / 2 - 0.012
     slot = "brass" if style.form.ornament > 0.5 else "wood"
@@ -201,7 +201,7 @@ def wall_ivy(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def ivy_leaf(root: Point3, azimuth: Real, length: Real, rise: Real, *, room: Real) -> Solid:
-    """A broad leaf that comes off a climber and hangs, no further than `room` metres towards -y."""
+    """A broad hanging leaf of a climbing plant, which extends at most `room` metres towards -y."""
     c, s = math.cos(azimuth), math.sin(azimuth)
     reach = min(length, 0.95 * room / max(-s, 0.2))
     points: list[Point3] = [

@@ -12,7 +12,7 @@ from wm.offline.style.finish import PERIOD, Style
 
 
 def base_units(style: Style, w: Real, d: Real, h: Real, *, drawers: bool, basin: Real = 0.0) -> list[Part]:
-    """Cupboards below a worktop that is left for the caller; open above to a depth of `basin`."""
+    """Cupboards without their worktop, open at the top to a depth of `basin`."""
     slot = "wood" if style.family in ("gothic", "rustic", "industrial", "japanese") else "painted_wood"
     face = -d / 2 + 0.045
     parts = of(slot, box((-w / 2, face, 0.09), (w / 2, d / 2, h - 0.037 - basin)))
@@ -55,7 +55,7 @@ def counter(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def sink(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A counter with a basin let into its top, and a tap; h is the height of the worktop."""
+    """A counter with a basin and a tap; h is the height of the worktop."""
     w, d, top = size
     parts = base_units(style, w, d, top, drawers=False, basin=0.17)
     hole = rounded(0.5, 0.38, 0.05, at=(0.0, -0.21))
@@ -130,7 +130,7 @@ def stove(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def fridge(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """Two doors above each other with bar handles: steel, enamel where the style is soft, an icebox in period ones."""
+    """A fridge with two doors above each other and bar handles: steel, enamel in soft styles, or an icebox in period styles."""
     w, d, h = size
     retro = style.form.softness > 0.7 or style.family in ("midcentury", "surreal")
     icebox = style.family in PERIOD and style.family != "surreal"

@@ -13,7 +13,7 @@ from wm.offline.style.finish import Style
 
 
 def floor_lamp(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A standing lamp: tripod, arched or on a turned stem."""
+    """A floor lamp: a tripod, an arched lamp, or a lamp on a turned stem."""
     w, _, h = size
     r = w / 2
     kind = standing(style)

@@ -1,4 +1,4 @@
-"""Plane outlines of furniture: arches, rounded rectangles, frames and waves, as shapely polygons in (across, up), metres."""
+"""Plane outlines of furniture: arches, rounded rectangles, frames and waves, as shapely polygons in (x, z), in metres."""
 
 import math
 
@@ -9,21 +9,21 @@ from wm.offline.furniture.solids import Real
 
 
 def rectangle(width: Real, height: Real, *, at: tuple[Real, Real] = (0.0, 0.0)) -> shapely.Polygon:
-    """Centred across, standing on `at`."""
+    """A rectangle, centred horizontally, whose lower edge is at the height `at`."""
     x, z = at
     return shapely.box(x - width / 2, z, x + width / 2, z + height)
 
 
 def rounded(width: Real, height: Real, radius: Real, *, at: tuple[Real, Real] = (0.0, 0.0)) -> shapely.Polygon:
-    """A rectangle with round corners, standing on `at`."""
+    """A rectangle with round corners, centred horizontally, whose lower edge is at the height `at`."""
     radius = min(radius, 0.49 * width, 0.49 * height)
     return rectangle(width, height, at=at).buffer(-radius).buffer(radius, quad_segs=5)
 
 
 def arch(kind: str, width: Real, height: Real, *, at: tuple[Real, Real] = (0.0, 0.0), steps: int = 7) -> shapely.Polygon:
-    """A panel with a top: "pointed" (two arcs that meet), "round", "wave" (a lazy S) or anything else for straight.
+    """A panel whose top is "pointed" (two arcs that meet), "round", "wave" (a flat S) or, for any other name, straight.
 
-    The arch springs where its natural rise ends at the top, or lower so that it takes at most 0.6 of the height.
+    The arch is at most 0.6 of the height of the panel; a higher one is compressed.
     """
     x, z = at
     half = width / 2
@@ -47,7 +47,7 @@ def arch(kind: str, width: Real, height: Real, *, at: tuple[Real, Real] = (0.0, 
 
 
 def frame(outline: shapely.Polygon, border: Real) -> shapely.Polygon:
-    """The outline's border of a given width: what is left when its inside is cut out."""
+    """The border of an outline with a given width: the outline without its inside."""
     cut = outline.difference(outline.buffer(-border, join_style="mitre"))
     return cut if isinstance(cut, shapely.Polygon) else outline
 
@@ -63,10 +63,10 @@ def gear(
     """A gear wheel with spokes and a hub.
 
     Args:
-      radius: of the pitch circle: two wheels mesh whose middles are the sum of their radii apart.
-      turned: radians from the x axis to the middle of the first tooth.
-      spokes: openings between rim and hub; 0 for a solid disc.
-      tooth: height of a tooth, half of it beyond the pitch circle; drawn from `radius` and `teeth` where 0.
+      radius: radius of the pitch circle. Two wheels mesh if the distance of their centres is the sum of their radii.
+      turned: angle from the x axis to the middle of the first tooth, radians.
+      spokes: number of openings between rim and hub; 0 for a solid disc.
+      tooth: height of a tooth, half of it outside the pitch circle; if 0, it follows from `radius` and `teeth`.
     """
     pitch = 2 * math.pi / teeth
     high = tooth or 3.8 * radius / teeth
@@ -82,10 +82,10 @@ def gear(
             for a in turned + 0.3 + 2 * math.pi * np.arange(spokes) / spokes
         ]
         wheel = wheel.difference(ring.difference(shapely.union_all(bars)))
-    # A wheel may be so small that the spokes would not be attached to it.
+    # The spokes of a very small wheel might not be connected to it.
     return wheel if isinstance(wheel, shapely.Polygon) else circle(radius, at=at)
 
 
 def meshed(turned: Real, teeth: int, other: int, towards: Real) -> float:
-    """`turned` of a wheel with `other` teeth that meshes with one of `teeth`, seen in the direction `towards` (radians)."""
+    """`turned` of a wheel with `other` teeth that meshes with one of `teeth` teeth and lies in direction `towards` (radians)."""
     return towards + math.pi - (turned - towards) * teeth / other + math.pi / other

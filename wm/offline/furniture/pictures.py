@@ -1,6 +1,6 @@
-"""What hangs in frames: landscapes, seas, portraits, still lifes, botanical sheets, temples, plans of clockwork, plain shapes.
+"""Framed pictures: landscapes, seas, portraits, still lifes, botanical sheets, temples, plans of clockwork, plain shapes.
 
-A picture is flat shapes in thin layers before its canvas, each subject in the colours of the style, softened as old paint is.
+A picture consists of flat shapes in thin layers in front of its canvas, in muted colours of the style.
 """
 
 import dataclasses
@@ -26,7 +26,7 @@ SHADE: Rgb = (0.16, 0.14, 0.13)
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Canvas:
-    """A canvas that faces -y, its shapes given in shares: x from -1 to 1, z from 0 at its lower edge to 1 at its upper."""
+    """A canvas that faces -y. Shapes on it have x from -1 to 1 and z from 0 at its lower edge to 1 at its upper edge."""
 
     half: float  # metres from its middle to its side
     low: float  # metres
@@ -35,7 +35,7 @@ class Canvas:
     colors: tuple[Rgb, ...]  # of the style's accents, in an order of its own
 
     def paint(self, shape: BaseGeometry, layer: int, color: Rgb) -> list[Part]:
-        """A shape in metres, as much of it as lies on the canvas, in front of `layer` others."""
+        """The part of a shape (in metres) that lies on the canvas, in front of `layer` other layers."""
         inside = shape.intersection(shapely.box(-self.half, self.low, self.half, self.high)).simplify(2e-4)
         front = self.face - LAYER * (layer + 1)
         polygons = [p for p in shapely.get_parts(inside) if isinstance(p, shapely.Polygon) and p.area > 1e-5]
@@ -48,11 +48,11 @@ class Canvas:
         return shapely.Polygon([self.at(x, z) for x, z in points])
 
     def disc(self, x: Real, z: Real, share: Real) -> shapely.Polygon:
-        """A disc, its radius a share of the canvas's smaller side."""
+        """A disc whose radius is a share of the smaller side of the canvas."""
         return circle(share * min(2 * self.half, self.high - self.low), at=self.at(x, z), segments=20)
 
     def ridge(self, rng: np.random.Generator, level: Real, rise: Real) -> shapely.Polygon:
-        """Everything below a rolling skyline."""
+        """The area below a random smooth skyline."""
         t = np.linspace(-1, 1, 15)
         phase, waves = rng.uniform(0, 6, 2), float(rng.uniform(1.2, 2.4))
         line = level + rise * (0.6 * np.sin(waves * t + phase[0]) + 0.4 * np.sin(2.3 * waves * t + phase[1]))
@@ -197,11 +197,11 @@ SUBJECTS: dict[str, tuple[Callable[[Canvas, np.random.Generator], list[Part]], .
     "coastal": (sea, botanical, sea, landscape),
     "surreal": (shapes, landscape, portrait),
 }
-"""What a family hangs; landscapes, shapes and plants where it is not listed."""
+"""The subjects of each style family. Families that are not listed have landscapes, shapes and plants."""
 
 
 def subject(style: Style, rng: np.random.Generator, *, half: float, low: float, high: float, face: float) -> list[Part]:
-    """The painted parts of a picture, on a canvas of its own."""
+    """The painted parts of one picture."""
     table = SUBJECTS.get(style.family, (landscape, shapes, botanical))
     colors = tuple(style.accents[int(k)] for k in rng.permutation(len(style.accents)))
     canvas = Canvas(half=half, low=low, high=high, face=face, colors=colors)

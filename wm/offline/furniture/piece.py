@@ -1,4 +1,4 @@
-"""A piece of furniture before it is placed: closed parts, each with a slot, put together into one mesh in its own frame.
+"""A piece of furniture before it is placed: closed parts, each with a slot, assembled into one mesh in the frame of the piece.
 
 Object frame: x to the right of someone who looks at the front, y to the back, z up; the **front faces -y**; the origin is the
 centre of the footprint at the piece's lowest point (also for wall and ceiling pieces, whose back is at +y and top at +z).
@@ -16,12 +16,12 @@ Size = Point3
 """Width (x), depth (y), height (z), metres."""
 
 EMISSION: dict[str, float] = {"bulb": 1.0, "flame": 1.0, "ember": 0.8, "lamp_shade": 0.45, "screen": 0.05}
-"""How strongly a slot glows; slots that are not listed do not."""
+"""How strongly each slot glows; slots that are not listed do not glow."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Part:
-    """A closed solid and what it is made of."""
+    """A closed solid and its material slot."""
 
     slot: str  # one of finish.SLOTS
     solid: Solid
@@ -41,7 +41,7 @@ class Top:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Model:
-    """What a builder returns: parts in any position, and the surfaces for clutter."""
+    """The result of a builder: parts in any position, and the surfaces that clutter may stand on."""
 
     parts: list[Part]
     tops: tuple[Top, ...] = ()
@@ -52,13 +52,13 @@ Builder = Callable[[Style, np.random.Generator, Size], Model]
 
 @dataclasses.dataclass(frozen=True)
 class FurnitureKind:
-    """A kind of furniture: how it is built, where it belongs and how large it may be."""
+    """A kind of furniture: its builder, its support and its range of sizes."""
 
     build: Builder
     support: str  # floor | flat | wall | ceiling | object
     low: Size
     high: Size
-    front: float = 0.0  # metres of free floor that it wants before it
+    front: float = 0.0  # metres of free floor in front of it
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -84,7 +84,7 @@ def of(slot: str, *solids: Solid, color: Rgb | None = None) -> list[Part]:
 
 
 def assemble(label: str, support: str, model: Model, style: Style) -> Piece:
-    """The parts as one mesh, moved so that the footprint is centred and the lowest point lies at z = 0."""
+    """The parts as one mesh, moved so that its footprint is centred on the origin and its lowest point is at z = 0."""
     keys = list(dict.fromkeys((part.slot, part.color) for part in model.parts))
     index = {key: k for k, key in enumerate(keys)}
     sizes = [len(part.solid.vertices) for part in model.parts]
@@ -111,6 +111,6 @@ def assemble(label: str, support: str, model: Model, style: Style) -> Piece:
 
 
 def pick(rng: np.random.Generator, choices: Iterable[Rgb]) -> Rgb:
-    """One of the colours."""
+    """A randomly chosen colour."""
     table = list(choices)
     return table[int(rng.integers(len(table)))]

@@ -1,4 +1,4 @@
-"""Things that stand and are looked at: statue, column, armour, globe, chess piece, mushroom, lectern."""
+"""Decorative objects on the floor: statue, column, armour, globe, chess piece, mushroom, lectern."""
 
 import math
 

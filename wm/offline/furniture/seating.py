@@ -1,4 +1,4 @@
-"""Things to sit on: armchair, sofa, chair, office chair, stool, ottoman, bench."""
+"""Seats: armchair, sofa, chair, office chair, stool, ottoman, bench."""
 
 import numpy as np
 
@@ -100,7 +100,7 @@ def sofa(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def chair(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A dining chair: seat, legs and the style's own back."""
+    """A dining chair: seat, legs, and a back in the shape of the style."""
     w, d, h = size
     form = style.form
     wood = frame_wood(style)
@@ -129,7 +129,7 @@ def chair(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def chair_back(style: Style, w: Real, d: Real, seat: Real, h: Real, wood: str) -> list[Part]:
-    """The upright back of a chair from the seat to the height h, before it leans."""
+    """The upright back of a chair from the seat to the height h, before it is tilted."""
     y0, y1 = d / 2 - 0.045, d / 2 - 0.012
     tall = h - seat + 0.02
     kind = style.form.back

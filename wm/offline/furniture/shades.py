@@ -1,4 +1,4 @@
-"""What the light of a lamp comes through: shells, globes, lanterns, paper, bowls, and a wheel of globes."""
+"""Lamp shades: shells, globes, lanterns, paper shades, bowls, and a wheel of globes."""
 
 import math
 
@@ -11,7 +11,7 @@ from wm.offline.style.finish import Style
 
 
 def shade(style: Style, kind: str, radius: Real, height: Real, z: Real) -> list[Part]:
-    """A lamp shade standing on z: an open shell around a bulb, or a closed globe."""
+    """A lamp shade whose lower end is at z: an open shell around a bulb, or a closed globe."""
     if kind in ("globe", "cluster"):
         return of("lamp_shade", ball((0, 0, z + radius), radius, 24))
     if kind == "lantern":
@@ -58,7 +58,7 @@ def shade(style: Style, kind: str, radius: Real, height: Real, z: Real) -> list[
 
 
 def standing(style: Style) -> str:
-    """The shade of lamps that stand, in a room where another sort hangs."""
+    """The shade of standing lamps in a room whose hanging lamps have this shade."""
     hung, usual = style.form.lamp, "cone" if style.form.ornament > 0.5 else "drum"
     lantern = "cone" if style.form.ornament > 0.5 else "lantern"
     table = {"cluster": "globe", "bowl": "cone", "rattan": "drum", "paper": "drum", "dome": usual, "lantern": lantern}

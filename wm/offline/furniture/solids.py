@@ -1,7 +1,7 @@
-"""Closed solids to build furniture from: boxes, turned, extruded, swept and puffed shapes.
+"""Closed solids of which furniture is built: boxes, and turned, extruded, swept and cushioned shapes.
 
-All lengths are metres. Every function returns a closed, outward-wound Solid (its signed volume is positive), so that parts
-can be put together without a boolean: they may interpenetrate, but never share a plane.
+All lengths are metres. Each function returns a closed Solid wound outwards (its signed volume is positive). Parts are combined
+without boolean operations: they may interpenetrate, but no two faces may lie in one plane.
 
 trimesh.creation has two of them: `revolve` agrees with `lathe` where the profile begins and ends on the axis (144 triangles, the
 same volume) and leaves every other profile open, and `extrude_polygon` agrees with `extrude`. Both number vertices differently,
@@ -18,7 +18,7 @@ from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
 Real = float | int
-"""A number that may be written as an integer: run-time checks would refuse 0 for a float."""
+"""A float or an integer, since run-time checks of types refuse an integer such as 0 for a float."""
 
 Point3 = tuple[Real, Real, Real]
 
@@ -32,13 +32,13 @@ class Solid:
 
 
 def volume(solid: Solid) -> float:
-    """Signed volume, positive where the winding points outward."""
+    """Signed volume: positive if the faces are wound outwards."""
     a, b, c = (solid.vertices[solid.faces[:, k]] for k in range(3))
     return float(np.einsum("fi,fi->", a, np.cross(b, c)) / 6.0)
 
 
 def closed(vertices: Float[np.ndarray, "v 3"], faces: Sequence[Sequence[int]] | np.ndarray) -> Solid:
-    """Solid of consistently wound faces, turned inside out where they wind inward."""
+    """A Solid of consistently wound faces, which are reversed if they are wound inwards."""
     solid = Solid(np.asarray(vertices, np.float64), np.asarray(faces, np.int32))
     return solid if volume(solid) > 0 else Solid(solid.vertices, solid.faces[:, ::-1].copy())
 
@@ -48,7 +48,7 @@ def shift(solid: Solid, offset: Point3) -> Solid:
 
 
 def turn(solid: Solid, axis: str, degrees: Real, about: Point3 = (0.0, 0.0, 0.0)) -> Solid:
-    """Turned counter-clockwise about an axis ("x", "y" or "z") through a point."""
+    """The solid turned counter-clockwise about an axis ("x", "y" or "z") through a point."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     i, j = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
     rotation = np.eye(3)
@@ -58,7 +58,7 @@ def turn(solid: Solid, axis: str, degrees: Real, about: Point3 = (0.0, 0.0, 0.0)
 
 
 def stretch(solid: Solid, factors: Point3) -> Solid:
-    """Scaled along the axes about the origin; a negative factor mirrors."""
+    """The solid scaled along the axes about the origin; a negative factor mirrors it."""
     return closed(solid.vertices * np.asarray(factors, np.float64), solid.faces)
 
 
@@ -154,7 +154,7 @@ def puff(lo: Point3, hi: Point3, *, square: Real = 0.35, flat: Real = 0.8, aroun
 
 
 def _stack_of_rings(vertices: np.ndarray, rings: int, around: int, *, poles: bool) -> Solid:
-    """Solid of rings of `around` vertices, closed by a pole vertex at either end (first and last in `vertices`)."""
+    """A Solid of rings of `around` vertices, closed by one pole vertex at each end (the first and the last of `vertices`)."""
     start = 1 if poles else 0
     k = np.arange(around)
     after = (k + 1) % around
@@ -169,11 +169,11 @@ def _stack_of_rings(vertices: np.ndarray, rings: int, around: int, *, poles: boo
 
 
 def lathe(profile: Sequence[tuple[Real, Real]], segments: int = 24, *, at: Point3 = (0.0, 0.0, 0.0), smooth: int = 0) -> Solid:
-    """A turned shape about the vertical through `at`.
+    """A solid of revolution about the vertical axis through `at`.
 
     Args:
       profile: (radius, height) from one end to the other; ends off the axis are closed by flat caps.
-      smooth: points that a Catmull-Rom curve puts between two of the profile (0 keeps its corners).
+      smooth: number of points of a Catmull-Rom curve between two points of the profile (0 keeps its corners).
     """
     curve = np.asarray(profile, np.float64)
     if smooth:
@@ -188,7 +188,7 @@ def lathe(profile: Sequence[tuple[Real, Real]], segments: int = 24, *, at: Point
 
 
 def shell(profile: Sequence[tuple[Real, Real]], thickness: Real, segments: int = 28, *, at: Point3 = (0.0, 0.0, 0.0)) -> Solid:
-    """A turned wall that is open above and below: the (radius, height) profile is its outside, `thickness` lies inside."""
+    """A wall of revolution, open above and below. The (radius, height) profile is its outside; it is `thickness` thick."""
     loop = [*profile, *((r - thickness, h) for r, h in reversed(profile))]
     angle = np.arange(segments) * 2 * np.pi / segments
     rings = [np.stack([r * np.cos(angle), r * np.sin(angle), np.full(segments, h)], -1) for r, h in loop]
@@ -202,7 +202,7 @@ def shell(profile: Sequence[tuple[Real, Real]], thickness: Real, segments: int =
 
 
 def catmull_rom(points: Float[np.ndarray, "k d"], between: int) -> Float[np.ndarray, "m d"]:
-    """The points with `between` more on a smooth curve between each two."""
+    """The points with `between` additional points of a Catmull-Rom curve between each two."""
     padded = np.concatenate([2 * points[:1] - points[1:2], points, 2 * points[-1:] - points[-2:-1]])
     t = np.linspace(0, 1, between + 2)[:-1, None]
     pieces = []
@@ -224,9 +224,9 @@ def tube(
     """A rod along a path, closed at its ends.
 
     Args:
-      radius: one, or one per point of the path.
-      flatten: thickness across over thickness along the first normal; below 1 a strap or a leaf.
-      smooth: points put between two of the path by a Catmull-Rom curve.
+      radius: one radius, or one per point of the path.
+      flatten: ratio of the thickness across to that along the first normal; below 1 for a strap or a leaf.
+      smooth: number of points of a Catmull-Rom curve between two points of the path.
     """
     points = np.asarray(path, np.float64)
     radii = np.broadcast_to(np.asarray(radius, np.float64), (len(points),))
@@ -241,19 +241,19 @@ def tube(
     for p, t, r in zip(points, tangent, radii):
         first = axis - t * (axis @ t)
         first /= np.linalg.norm(first)
-        axis = first  # carried along the path, so that the section does not twist
+        axis = first  # transported along the path, so that the section does not twist
         second = np.cross(t, first)
         rings.append(p + r * (np.cos(angle)[:, None] * second + flatten * np.sin(angle)[:, None] * first))
     return _stack_of_rings(np.concatenate([points[:1], *rings, points[-1:]]), len(points), segments, poles=True)
 
 
 def extrude(outline: BaseGeometry | Sequence[tuple[Real, Real]], lo: Real, hi: Real, axis: str = "y") -> Solid:
-    """A prism: an outline (with holes, if a polygon has them) carried from `lo` to `hi` along an axis.
+    """A prism: an outline (with the holes of a polygon) extruded from `lo` to `hi` along an axis.
 
     The outline lies in (x, z) for axis "y", in (y, z) for "x" and in (x, y) for "z".
 
     Raises:
-      ValueError: the outline is not one polygon.
+      ValueError: the outline is not a single polygon.
     """
     shape = outline if isinstance(outline, BaseGeometry) else shapely.Polygon(outline)
     if not isinstance(shape, shapely.Polygon) or shape.is_empty:

@@ -1,4 +1,4 @@
-"""Things that hold things: wardrobe, bookshelf, dresser, chest, sideboard, media bench, wall shelf."""
+"""Storage: wardrobe, bookshelf, dresser, chest, sideboard, media bench, wall shelf."""
 
 import math
 
@@ -12,14 +12,14 @@ from wm.offline.style.finish import Style
 
 
 def plinth(style: Style, w: Real, d: Real, height: Real, slot: str) -> list[Part]:
-    """What a cupboard stands on: legs, or a recessed base."""
+    """The support of a cupboard: legs, or a recessed base."""
     if style.form.legs in ("tapered", "hairpin", "cabriole", "turned") and height > 0.07:
         return legs(style, w - 0.02, d - 0.02, height + 0.01, min(0.06, height), slot=slot)
     return of(slot, box((-w / 2 + 0.03, -d / 2 + 0.05, 0.0), (w / 2 - 0.03, d / 2 - 0.02, height + 0.01)))
 
 
 def crown(style: Style, w: Real, d: Real, z: Real, slot: str) -> list[Part]:
-    """The cornice of a tall piece, at most 12 cm high: mouldings, and a gable or arch where the style has them."""
+    """The cornice of a tall piece, at most 12 cm high: mouldings, and a gable or arch in some styles."""
     if style.form.ornament < 0.3:
         return of(slot, box((-w / 2, -d / 2, z), (w / 2, d / 2, z + 0.025), 0.003))
     parts = of(slot, rounded_box((-w / 2 - 0.02, -d / 2 - 0.025, z), (w / 2 + 0.02, d / 2, z + 0.035), 0.012, 1))
@@ -39,7 +39,7 @@ def crown(style: Style, w: Real, d: Real, z: Real, slot: str) -> list[Part]:
 
 
 def carcass(w: Real, d: Real, z0: Real, z1: Real, thickness: Real = 0.025) -> list:
-    """An open box: sides, back, bottom and top, its front at -d / 2."""
+    """A box without a front: sides, back, bottom and top. Its front edge is at y = -d / 2."""
     t = thickness
     return [
         box((-w / 2, -d / 2, z0), (-w / 2 + t, d / 2, z1)),
@@ -62,7 +62,7 @@ def books(
     *,
     fill: Real = 0.9,
 ) -> list[Part]:
-    """A row of standing books between x0 and x1 with their spines at y0, on z, under a clear height."""
+    """A row of standing books from x0 to x1 on the height z, with their spines at y0 and below a clear height."""
     parts: list[Part] = []
     x = x0
     while x < x1 - 0.02:
@@ -87,7 +87,7 @@ def books(
 
 
 def bookshelf(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """Shelves full of single books, with gaps, under the style's cornice."""
+    """Shelves with books and gaps, under a cornice."""
     w, d, h = size
     wood = frame_wood(style)
     base = 0.08

@@ -12,7 +12,7 @@ from wm.offline.style.finish import Style
 
 
 def slab_top(style: Style, w: Real, d: Real, h: Real, thickness: Real, *, slot: str) -> list[Part]:
-    """A table top with the edge its style gives it."""
+    """A table top with the edge of the style."""
     if style.form.ornament > 0.5:
         lower = rounded_box(
             (-w / 2 + 0.015, -d / 2 + 0.015, h - thickness - 0.012), (w / 2 - 0.015, d / 2 - 0.015, h - thickness * 0.5), 0.008, 1
@@ -29,7 +29,7 @@ def top_of(w: Real, d: Real, h: Real, inset: Real = 0.03) -> tuple[Top, ...]:
 
 
 def table(style: Style, w: Real, d: Real, h: Real, *, thickness: Real, leg: Real, apron: Real = 0.07) -> Model:
-    """A rectangular table on legs, or on end panels or marble trestles where the style has them."""
+    """A rectangular table on legs, or on end panels or marble trestles in some styles."""
     form = style.form
     if form.legs == "column":
         parts = of("marble", rounded_box((-w / 2, -d / 2, h - thickness - 0.01), (w / 2, d / 2, h), 0.012, 1))
@@ -134,7 +134,7 @@ def side_table(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def console_table(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A narrow table against a wall, with a drawer or two where the style likes them."""
+    """A narrow table against a wall, with one or two drawers in some styles."""
     w, d, h = size
     model = table(style, w, d, h, thickness=0.03, leg=0.05, apron=0.0 if style.form.legs in ("slab", "column") else 0.12)
     if style.form.legs in ("slab", "column", "hairpin"):
@@ -146,7 +146,7 @@ def console_table(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def desk(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A writing desk: a pedestal of drawers on one side or both, legs or a panel otherwise; one sits at its front."""
+    """A writing desk: a pedestal of drawers on one side or both, legs or a panel otherwise. The chair is at its front."""
     w, d, h = size
     form = style.form
     wood = frame_wood(style)

@@ -34,7 +34,7 @@ def bowl(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def book_pile(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A few books lying on each other, each a cover around its pages."""
+    """A pile of books. Each is a cover around a block of pages."""
     w, d, h = size
     count = max(int(h / 0.035), 2)
     z, parts = 0.0, []
@@ -108,7 +108,7 @@ def television(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def monitor(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A computer screen with its keyboard before it."""
+    """A computer screen with a keyboard in front of it."""
     w, d, h = size
     y = d / 2 - 0.1
     parts = of(

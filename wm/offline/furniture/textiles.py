@@ -17,7 +17,7 @@ def inlaid(
     high: Real,
     axis: str,
 ) -> list[Part]:
-    """A flat thing of nested bands from the border inward; each band is its own solid, so that no faces share a plane area."""
+    """A flat piece of nested bands from the border inwards. Each band is a solid of its own, so that faces do not overlap."""
     parts: list[Part] = []
     current = outline
     for width, slot in zip([*widths, 0.0], slots):
@@ -74,7 +74,7 @@ def bath_mat(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def drape(x0: Real, x1: Real, y: Real, low: Real, high: Real, folds: int, depth: Real, tie: Real | None) -> Solid:
-    """A hanging cloth between x0 and x1 in deep folds around the plane y; gathered towards x = tie below where one is given."""
+    """A hanging cloth from x0 to x1 in deep folds around the plane y. Its lower part is gathered towards x = `tie`, if given."""
     n = folds * 8 + 1
     t = np.linspace(0.0, 1.0, n)
     wave = depth * np.sin(t * folds * 2 * np.pi)
@@ -105,7 +105,7 @@ def drape(x0: Real, x1: Real, y: Real, low: Real, high: Real, folds: int, depth:
 
 
 def curtains(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A pair of curtains on a rod, drawn to the sides of a window; w is the rod, h the drop."""
+    """A pair of curtains on a rod, drawn to the sides of a window. w is the length of the rod, h the height of the cloth."""
     w, d, h = size
     metal = "brass" if style.form.ornament > 0.3 else "dark_metal"
     z = h - 0.03
@@ -132,7 +132,7 @@ def curtains(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def tapestry(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A woven hanging with a border and a device, on a rod, its lower edge in points."""
+    """A tapestry on a rod with a border, an emblem and a pointed lower edge."""
     w, _d, h = size
     parts = of("dark_wood", shift(turn(rod((0, 0, -w / 2), (0, 0, w / 2), 0.016), "y", 90), (0, 0, h - 0.02)))
     n = 3

@@ -1,4 +1,4 @@
-"""Things on walls and against them to be looked at: pictures, mirror, clocks, fireplace, folding screen."""
+"""Decorative objects on walls and at walls: pictures, mirror, clocks, fireplace, folding screen."""
 
 import math
 
@@ -16,7 +16,7 @@ from wm.offline.style.finish import Rgb, Style
 def framed(
     style: Style, outline: shapely.Polygon, d: Real, border: Real, inside: str, *, wood: str, color: Rgb | None = None
 ) -> list[Part]:
-    """A frame with something flat in it; its back lies at d / 2."""
+    """A frame around a flat inset. Its back is at y = d / 2."""
     parts = of(wood, extrude(frame(outline, border), -d / 2 + 0.25 * d, d / 2, "y"))
     if style.form.ornament > 0.3:
         parts += of(
@@ -41,7 +41,7 @@ def picture(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def mirror(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A looking glass in the style's outline."""
+    """A mirror in the outline of the style."""
     w, d, h = size
     kind = {"pointed_arch": "pointed", "round_arch": "round", "wave": "wave"}.get(style.form.back, "")
     outline = arch(kind, w, h) if kind else rounded(w, h, 0.49 * w if style.form.softness > 0.5 else 0.02)
@@ -49,7 +49,7 @@ def mirror(style: Style, rng: np.random.Generator, size: Size) -> Model:
 
 
 def fireplace(style: Style, rng: np.random.Generator, size: Size) -> Model:
-    """A chimney piece with its fire lit: jambs, lintel, mantel, a dark firebox, logs, flames."""
+    """A fireplace with a burning fire: jambs, lintel, mantel, a dark firebox, logs, flames."""
     w, d, h = size
     stone = "marble" if style.form.legs in ("column", "cabriole") or style.form.ornament < 0.2 else "stone"
     opening_w, opening_h = 0.55 * w, 0.62 * h

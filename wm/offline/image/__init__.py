@@ -1,7 +1,7 @@
-"""The offline image backend.
+"""The offline image backend: it paints the offline world, with the flaws that image models have.
 
-    painter        the backend: paints the offline world, and behaves as an image model does
+    painter        the backend
     imagination    what it invents where its condition leaves something open
-    imperfections  tone, exposure, detail, sharpness
-    violations     how it leaves the scaffold
+    imperfections  errors of tone, exposure, detail and sharpness
+    violations     images that do not keep the structure of the scaffold
 """

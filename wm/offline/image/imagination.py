@@ -1,10 +1,10 @@
-"""What the offline image model has in mind where its condition leaves something open: other worlds over the same structure.
+"""Imagined worlds: what the offline image model draws where its condition leaves something open.
 
-An imagination is numbered; number 0 is the scene itself, the one whose held-out views count as the truth. The others differ in
-what is open: the finish of walls, floors and ceilings, and either the furniture inside each object's box or all of the furniture.
-A view's seed picks one, so that views disagree as those of an image model do, and every choice is a world that can be lit,
-which is baked once a room and not once a view. Asked to furnish empty rooms, the model draws FURNISHED: the scene's
-finish, with the furniture that the offline objects backend would give it.
+All of them have the structure of the scene. World 0 is the scene itself, whose held-out views count as the truth. The others
+differ in what the condition leaves open: the finish of walls, floors and ceilings, and either the furniture in the box of each
+object or all of the furniture. The seed of a view selects one, so that views disagree as those of an image model do. Since there
+are few worlds, light is baked once per room of a world and not once per view. For an empty room that it is asked to furnish, the
+model draws FURNISHED: the finish of the scene with the furniture that the offline objects backend makes.
 """
 
 import dataclasses
@@ -26,30 +26,30 @@ WALLS = (("paint", 0.1), ("plaster", 1.0), ("wallpaper_damask", 0.7), ("wallpape
 FLOORS = (("wood_planks", 0.16), ("herringbone", 0.5), ("parquet", 0.45), ("stone_tiles", 0.6), ("checker_tiles", 0.5),
           ("terracotta", 0.3), ("marble", 0.8), ("carpet", 0.01))  # fmt: skip
 CEILINGS = (("paint", 0.1), ("plaster", 1.0), ("wood_planks", 0.2))
-"""Materials with the length of their pattern, metres, that a model may dress a surface in."""
+"""The materials that an imagined surface may have, each with the length of its pattern in metres."""
 WOODEN = frozenset({"panelling", "wood_planks", "herringbone", "parquet"})
 """Materials in the colour of the theme's woods."""
 RIVALS = 5
-"""Kinds of the most fitting proportions of which one takes an object's place."""
+"""Number of kinds, those of the most similar proportions, from which the substitute of an object is drawn."""
 STRETCH = 2.2
-"""Ratio of sides up to which a piece is stretched to fill a box."""
+"""Largest factor by which a side of a piece may be stretched to fill a box."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Imagination:
-    """Which world: numbers of its finish and of its furniture, 0 for the scene's own."""
+    """Selects a world by the number of its finish and that of its furniture; 0 is the scene's own."""
 
     surfaces: int = 0
     furniture: int = 0
-    boxed: bool = False  # other furniture in the scene's boxes; otherwise other furniture in other places
-    furnished: bool = False  # the offline objects backend's furniture in the place of the scene's
+    boxed: bool = False  # whether other furniture fills the boxes of the scene's objects; otherwise it stands in other places
+    furnished: bool = False  # whether the furniture is that of the offline objects backend
 
 
 SCENE, FURNISHED = Imagination(), Imagination(furnished=True)
 
 
 def imagined_scene(context: SceneContext, which: Imagination) -> SceneContext:
-    """The scene of a world, which its finish does not change; without other furniture the scene itself."""
+    """The scene of a world. It depends on the world's furniture only, not on its finish."""
     if which.furnished:
         return dataclasses.replace(context, objects=furnish_scene(context))
     if not which.furniture:
@@ -59,7 +59,7 @@ def imagined_scene(context: SceneContext, which: Imagination) -> SceneContext:
 
 
 def imagined_style(context: SceneContext, which: Imagination) -> Style:
-    """The style that a world is finished in, which its furniture does not change."""
+    """The style of a world. It depends on the world's finish only, not on its furniture."""
     style = style_of(context.theme)
     return refinished(style, _dice(context, which.surfaces, 1)) if which.surfaces else style
 
@@ -78,7 +78,7 @@ def _surfaces(own: Surfaces, style: Style, rng: np.random.Generator) -> Surfaces
 
 
 def _finish(own: Finish, table: tuple[tuple[str, float], ...], style: Style, rng: np.random.Generator) -> Finish:
-    """Another material than the own, as light or dark as its surface is on the whole."""
+    """A finish of another material, about as light or dark as the given one."""
     choices = [entry for entry in table if entry[0] != own.material]
     material, scale = choices[int(rng.integers(len(choices)))]
     wood = style.slot(("wood", "dark_wood", "light_wood")[int(rng.integers(3))]).colors[0]
@@ -89,7 +89,7 @@ def _finish(own: Finish, table: tuple[tuple[str, float], ...], style: Style, rng
 
 
 def restyled(style: Style, rng: np.random.Generator) -> Style:
-    """The style as another maker of furniture understands it: other legs, backs and fronts, and other colours in every slot."""
+    """The style with other shapes of furniture (legs, backs, fronts, lamps) and other colours in every slot."""
     form = dataclasses.replace(
         style.form,
         legs=str(rng.choice(["turned", "tapered", "straight", "cabriole", "hairpin", "column", "slab"])),
@@ -138,12 +138,12 @@ def _stand_in(thing: SceneObject, room: str, style: Style, rng: np.random.Genera
 
 
 def _natural(kind: str, size: np.ndarray) -> np.ndarray:
-    """The size nearest to a wanted one that a kind is made in."""
+    """The size, within the range of a kind, that is nearest to the wanted one."""
     return np.clip(size, KINDS[kind].low, KINDS[kind].high)
 
 
 def _rivals(thing: SceneObject, size: np.ndarray, room: str, family: str) -> list[str]:
-    """The kinds that might fill a box of this size, none of them the thing's own: those that need the least stretching."""
+    """The kinds, other than that of the thing, that need the least stretching to fill a box of this size."""
     others = [kind for kind in KINDS if kind != thing.label and _belongs(kind, room, family)]
     others = [kind for kind in others if KINDS[kind].support == thing.support] or others
 

@@ -1,6 +1,6 @@
-"""What is never quite right in the image of a model, each at a strength of its own: tone, exposure, fine detail, sharpness.
+"""Imperfections that images of models have: errors of tone, exposure, fine detail and sharpness.
 
-Every function takes an image and returns it with one imperfection; at strength 0 it returns the image it was given.
+Each function returns an image with one imperfection of a given strength. At strength 0 it returns the image unchanged.
 """
 
 import numpy as np
@@ -10,13 +10,13 @@ from scipy.ndimage import gaussian_filter, zoom
 from wm.types import OUTSIDE
 
 REFERENCE_WIDTH = 1376
-"""Image width for which lengths in pixels are given, the paper's."""
+"""Image width for which lengths in pixels are given: that of the paper's images."""
 EDDY = 40.0
-"""Pixels of the reference width over which detail strays alike."""
+"""Distance, in pixels at the reference width, over which the displacement of detail is correlated."""
 
 
 def drifted(image: Float[np.ndarray, "h w 3"], amount: float, rng: np.random.Generator) -> Float[np.ndarray, "h w 3"]:
-    """The image under a gain and a hue that wander smoothly: a value for the view, and a field of 3 x 4 knots."""
+    """The image with a gain and a hue that vary smoothly: one value for the view, plus a field of 3 x 4 knots."""
     whole = rng.normal(size=3) * 0.35 + rng.normal()
     knots = rng.normal(size=(3, 4, 3)) * 0.35 + rng.normal(size=(3, 4, 1)) * 0.35
     if amount == 0:
@@ -29,7 +29,7 @@ def drifted(image: Float[np.ndarray, "h w 3"], amount: float, rng: np.random.Gen
 def drifted_apart(
     image: Float[np.ndarray, "h w 3"], thing: Int[np.ndarray, "h w"], amount: float, rng: np.random.Generator
 ) -> Float[np.ndarray, "h w 3"]:
-    """The image with every object under a gain and hue of its own: what a model invents anew in each view."""
+    """The image with a separate gain and hue for each object, as if a model invented its colours anew in each view."""
     count = int(thing.max(initial=OUTSIDE)) + 2
     gains = (1 + amount * (rng.normal(size=(count, 3)) * 0.7 + rng.normal(size=(count, 1)))).astype(np.float32)
     gains[0] = 1  # structure
@@ -37,7 +37,7 @@ def drifted_apart(
 
 
 def exposed(image: Float[np.ndarray, "h w 3"], amount: float, rng: np.random.Generator) -> Float[np.ndarray, "h w 3"]:
-    """The whole image brighter or darker, and a little warmer or colder; `amount` is the standard deviation of the gain."""
+    """The whole image made brighter or darker, and a little warmer or colder. `amount` is the standard deviation of the gain."""
     gain = 1 + amount * (rng.normal() + 0.3 * rng.normal(size=3))
     return image if amount == 0 else image * np.maximum(gain, 0.2).astype(np.float32)
 
@@ -45,10 +45,10 @@ def exposed(image: Float[np.ndarray, "h w 3"], amount: float, rng: np.random.Gen
 def strayed(
     image: Float[np.ndarray, "h w 3"], surface: Int[np.ndarray, "h w"], pixels: float, rng: np.random.Generator
 ) -> Float[np.ndarray, "h w 3"]:
-    """The image with its detail out of place by about `pixels` (of the reference width), while silhouettes stay.
+    """The image with its detail displaced by about `pixels` (at the reference width), while silhouettes stay in place.
 
     Args:
-      surface: [h, w] a number per surface; a pixel that would take its colour from another surface keeps its own.
+      surface: [h, w] number of the surface at each pixel; a pixel whose colour would come from another surface keeps its own.
     """
     height, width = surface.shape
     scale = width / REFERENCE_WIDTH
@@ -69,7 +69,7 @@ def strayed(
 
 
 def softened(image: Float[np.ndarray, "h w 3"], pixels: float) -> Float[np.ndarray, "h w 3"]:
-    """The image blurred by a gaussian of `pixels` (of the reference width)."""
+    """The image blurred by a gaussian with a standard deviation of `pixels` (at the reference width)."""
     sigma = pixels * image.shape[1] / REFERENCE_WIDTH
     return image if pixels == 0 else gaussian_filter(image, (sigma, sigma, 0), mode="nearest")
 

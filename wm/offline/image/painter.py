@@ -1,19 +1,20 @@
-"""The offline image model: it paints worlds of wm.offline.world, and behaves as an image model does.
+"""The offline image model: it paints worlds of wm.offline.world, with the flaws that image models have.
 
-Phi(X, reference, theme; seed) keeps what X shows and invents the rest. What it invents is a whole world (wm.offline.image
-.imagination), picked by the view's seed, seen from the view's camera as W:
+Phi(X, reference, theme; seed) keeps what X shows and invents the rest. The seed of the view selects a whole invented world
+(wm.offline.image.imagination), and W is its image from the view's camera:
     out = W + known * lowpass(X - W) + (1 - known) * drift.
-- Objects that X shows textured are the scene's; a grey box is filled with other furniture; where X shows no objects, the room is
-  furnished in some other way.
-- Walls, floor and ceiling are finished as the scene's where X shows any of their texture; otherwise in some other way that the
-  theme allows. Someone has to begin: where the scaffold hands texture on, a room's bootstrap views settle how it is finished, and
-  that finish is the scene's. Where it hands none on nobody would see what they settled, and they invent as every other view does.
-- Asked to furnish an empty room, it draws the furniture of the offline objects backend, and finishes the room as the scene is.
-  Only colours and shapes are read off such an image, so its world is coarser (COARSE).
-- Where X shows accumulated texture its tone is kept at the scale of texels (the low frequencies of the result are those of X)
-  while the world's fine detail is restored.
-Imperfections (wm.offline.image.imperfections) and violations of the structure (wm.offline.image.violations) come on top, at the
-strengths of its Settings; with all of them at 0 and nothing left open the image is the exact world, the truth of held-out views.
+- Objects that X shows textured are those of the scene. A grey box is filled with other furniture. If X shows no objects, the room
+  is furnished in another way.
+- Walls, floor and ceiling have the finish of the scene if X shows any of their texture, and otherwise another finish that suits
+  the theme. If the scaffold carries texture from view to view (`wall_texture`), the bootstrap views of a room have the finish of
+  the scene, so that later views can follow them. If it does not, the bootstrap views invent a finish like every other view.
+- For an empty room that it is asked to furnish, it draws the furniture of the offline objects backend and the finish of the
+  scene. Only colours and shapes are taken from such an image, so that a coarser world is sufficient (COARSE).
+- Where X shows accumulated texture, the result has the low frequencies of X, down to the scale of texels, and the fine detail of
+  the world.
+Imperfections (wm.offline.image.imperfections) and violations of the structure (wm.offline.image.violations) are added with the
+strengths in Settings. If all of them are 0 and the condition leaves nothing open, the image is the exact world, which is the
+truth of held-out views.
 """
 
 import dataclasses
@@ -43,28 +44,28 @@ from wm.types import OUTSIDE, Camera, SceneObject, View
 VERSION = "1"
 PROVIDES = (DRAWN,)
 SURE = 0.85
-"""How far known a pixel must be before its tone counts: below, the condition is part grey depth."""
+"""Value of `known` above which the tone of a pixel is used. Below it, the pixel of the condition is partly grey depth."""
 RECOGNISED = 0.01
-"""Share of an image's structure that must be known for the model to recognise the room's finish and go on in it."""
+"""Share of the pixels that must show texture of the structure for the model to continue the finish of the scene."""
 SHOTS_AT_ONCE, KEPT_SHOTS = 2, 4
-"""Views whose share of the work that no condition changes is done side by side, and how many of them are kept."""
+"""Number of shots (images of a world, before any condition) that are made at a time, and number that are kept."""
 TONE_SCALE = 5 / 688
-"""Standard deviation of the low pass, as a share of the image's width: about a texel of 2 cm at two metres."""
+"""Standard deviation of the low pass as a share of the image width: about a texel of 2 cm at a distance of two metres."""
 AGREEMENT = 0.03
-"""Relative difference of depth up to which the condition is taken to show what the world has there."""
+"""Relative difference of depth up to which the condition and the world are taken to show the same surface."""
 INVENTION = 4.0
-"""How many times stronger an object that the condition does not show drifts than a wall."""
+"""Drift of an object that the condition does not show, as a multiple of the drift of a wall."""
 PLANES = 0.05
-"""Metres between planes of the structure that count as two surfaces: a pane lies deeper than that in its wall."""
+"""Metres. Parallel planes of the structure that are farther apart count as different surfaces, such as a pane and its wall."""
 ELBOW_ROOM = 0.35
-"""Metres between a camera and imagined furniture: a model draws a view, not the inside of a wardrobe."""
+"""Metres from a camera to imagined furniture beyond which more distance is not preferred."""
 COARSE = 0.04
-"""Metres between texels, at least, of the world that is drawn to furnish empty rooms; its edges are not supersampled."""
+"""Smallest distance between texels, in metres, of the world that is drawn to furnish rooms. It is not supersampled."""
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
 class Settings(BackendSettings):
-    """How fine the painter's world is, and how strong the flaws of its images are."""
+    """The resolution of the painter's world, and the strengths of the flaws of its images."""
 
     backend: str = setting(__name__, "The offline image model.")
     drift: float = number(0.02, 0, 1, "Standard deviation of the tone a view invents where its condition shows only depth.")
@@ -87,7 +88,7 @@ class Settings(BackendSettings):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Scenery:
-    """A world under the camera, and the scene it is made of."""
+    """A world, and the scene that it shows."""
 
     context: SceneContext
     world: World | WorkerWorld
@@ -95,25 +96,25 @@ class Scenery:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ProceduralImages:
-    """The backend. A world is made when a view first shows it, and its rooms are dressed and lit when one first sees them."""
+    """The backend. A world is made for the first view that needs it, and a room of it for the first view that sees the room."""
 
     scene: SceneContext
-    make_world: Callable[[SceneContext, Imagination], World | WorkerWorld]  # of an imagined scene, in its finish
+    make_world: Callable[[SceneContext, Imagination], World | WorkerWorld]  # of an imagined scene and its finish
     config: Settings
     _pool: ThreadPoolExecutor = dataclasses.field(default_factory=lambda: ThreadPoolExecutor(SHOTS_AT_ONCE, "wm-shots"))
     _shots: dict[tuple, Future[Shot]] = dataclasses.field(default_factory=dict)
-    _scenes: dict[Imagination, SceneContext] = dataclasses.field(default_factory=dict)  # of imaginations in the scene's finish
+    _scenes: dict[Imagination, SceneContext] = dataclasses.field(default_factory=dict)  # by the imagination with surfaces=0
     _sceneries: dict[Imagination, Scenery] = dataclasses.field(default_factory=dict)
     _lock: threading.RLock = dataclasses.field(default_factory=threading.RLock)
-    _left_open: threading.Event = dataclasses.field(default_factory=threading.Event)  # by some condition so far
+    _left_open: threading.Event = dataclasses.field(default_factory=threading.Event)  # set if a condition left something open
 
     def prefetch(self, views: Sequence[View]) -> None:
-        """Starts on the views that come next: what they show of the scene, unless conditions leave open what that is."""
+        """Starts the shots of the next views, unless conditions leave something open, so that other worlds will be drawn."""
         for view in () if self._left_open.is_set() else views[:KEPT_SHOTS]:
             self._shot(SCENE, view)
 
     def generate(self, request: ImageRequest) -> ImageResult:
-        """What the model makes of the condition; same request, same bytes.
+        """The image for a request. Equal requests give equal bytes.
 
         Raises:
           ValueError: the condition's images are not of the camera's size.
@@ -132,19 +133,19 @@ class ProceduralImages:
         )
 
     def imagined(self) -> Sequence[SceneObject]:
-        """The furniture that its answers to the task "furnish" show, of all rooms in world space.
+        """The furniture of all rooms, in world space, that its images for the task "furnish" show.
 
         Raises:
-          ValueError: the density that the scene wants is not a share.
+          ValueError: the density of the scene is not between 0 and 1.
         """
         return self._imagined(FURNISHED).objects
 
     def truth(self, view: View) -> Float[np.ndarray, "h w 3"]:
-        """The exact world from a view's camera."""
+        """The image of the exact world from a view's camera."""
         return np.clip(self.scenery(SCENE).world.shoot(view.camera).rgb, 0, 1)
 
     def scenery(self, which: Imagination) -> Scenery:
-        """A world, made now if it is not there yet."""
+        """An imagined world, which is made if it does not exist yet."""
         with self._lock:
             if which not in self._sceneries:
                 context = self._imagined(which)
@@ -152,14 +153,14 @@ class ProceduralImages:
             return self._sceneries[which]
 
     def close(self) -> None:
-        """Ends the processes of its worlds, and its threads as soon as they are done; what they are at is not waited for."""
+        """Ends the processes of its worlds. Its threads end after the shot that they are making, which is not waited for."""
         self._pool.shutdown(wait=False, cancel_futures=True)
         for scenery in self._sceneries.values():
             if isinstance(scenery.world, WorkerWorld):
                 scenery.world.close()
 
     def _imagine(self, request: ImageRequest) -> Imagination:
-        """The world that a request is answered with: the scene's own in all that the condition shows, and what the seed says."""
+        """Selects the world for a request: the scene's own in everything that the condition shows; the seed selects the rest."""
         condition, count = request.condition, self.config.imaginations
         if count == 0:
             return SCENE
@@ -178,7 +179,7 @@ class ProceduralImages:
         return which
 
     def _imagined(self, which: Imagination) -> SceneContext:
-        """The scene of a world, furnished now if it is not yet. Which world a view is shown is chosen by it: no world is made."""
+        """The scene of an imagined world, furnished if it is not furnished yet. The world itself is not made."""
         with self._lock:
             furniture = dataclasses.replace(which, surfaces=SCENE.surfaces)
             if furniture not in self._scenes:
@@ -192,7 +193,7 @@ class ProceduralImages:
         return draw_violation(shares, scenery.context, request.view, shot.gbuffer, shot.object, rng, objects=objects)
 
     def _painted(self, request: ImageRequest, shot: Shot) -> Float[np.ndarray, "h w 3"]:
-        """The shot in the tone that the condition has, with the model's imperfections."""
+        """The shot with the tone of the condition and the imperfections of the model."""
         condition, config = request.condition, self.config
         rng = np.random.default_rng(_stream(request.seed, 0x1A6E))
         invented = drifted(shot.rgb, config.drift, rng)
@@ -210,7 +211,7 @@ class ProceduralImages:
         return softened(exposed(rgb, config.exposure, rng), config.softness)
 
     def _shot(self, which: Imagination, view: View) -> Future[Shot]:
-        """What a world shows the view, under way or done; the latest few are kept, so that a further attempt costs no other."""
+        """The shot of a world for a view, possibly still being made. The latest few are kept for further attempts at a view."""
         camera, scenery = view.camera, self.scenery(which)
         arrays = (np.asarray(x, np.float64).tobytes() for x in (camera.T_cam_world, camera.focal, camera.principal))
         key = (which, *arrays, camera.width, camera.height)
@@ -238,7 +239,7 @@ def make(config: Settings, context: SceneContext) -> ProceduralImages:
 
 
 def lowpass(image: Float[np.ndarray, "h w c"], weight: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "h w c"]:
-    """Weighted gaussian mean at the scale of TONE_SCALE; 0 where no weight is near."""
+    """Weighted gaussian mean with a standard deviation of TONE_SCALE; 0 where all weights nearby are 0."""
     sigma = max(TONE_SCALE * image.shape[1], 0.6)
     total = gaussian_filter(weight, sigma, mode="nearest", truncate=3.0)
     blurred = gaussian_filter(image * weight[..., None], (sigma, sigma, 0), mode="nearest", truncate=3.0)
@@ -246,7 +247,7 @@ def lowpass(image: Float[np.ndarray, "h w c"], weight: Float[np.ndarray, "h w"])
 
 
 def _keep_tone(invented: np.ndarray, world: np.ndarray, shown: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Where known, the world with the low frequencies of what is shown; elsewhere what was invented."""
+    """Where `known` is 1, the world with the low frequencies of `shown`; where it is 0, `invented`."""
     if not known.any():
         return invented
     kept = world + lowpass(shown - world, known)
@@ -254,7 +255,7 @@ def _keep_tone(invented: np.ndarray, world: np.ndarray, shown: np.ndarray, known
 
 
 def _recognised(condition: Condition) -> bool:
-    """Whether the condition shows enough of the structure's texture to tell how the room is finished."""
+    """Whether the condition shows enough texture of the structure to recognise the finish of the room."""
     structure = condition.depth > 0
     if condition.object is not None:
         structure &= ~condition.object
@@ -262,9 +263,9 @@ def _recognised(condition: Condition) -> bool:
 
 
 def _shown(request: ImageRequest, shot: Shot) -> Bool[np.ndarray, "h w"]:
-    """Pixels at which the condition shows the surface that was drawn; of boxes' surfaces there is nothing to show.
+    """Pixels at which the condition shows the same surface as the shot. The surfaces of boxes do not count.
 
-    To furnish, what lies flat on the empty room's surface (a rug, a picture) is as decided as that surface.
+    For the task "furnish", pixels of things that lie flat on a surface of the empty room (a rug, a picture) count as shown.
     """
     condition, depth = request.condition, shot.gbuffer.depth
     same = (condition.depth > 0) & (np.abs(condition.depth - depth) <= AGREEMENT * np.maximum(depth, 0.1))
@@ -275,7 +276,7 @@ def _shown(request: ImageRequest, shot: Shot) -> Bool[np.ndarray, "h w"]:
 
 
 def _surfaces_of(shot: Shot, camera: Camera) -> Int[np.ndarray, "h w"]:
-    """A number for each object, and for each plane of the structure to within PLANES."""
+    """[h, w] numbers of surfaces: one number for each object and for each plane of the structure, to within PLANES."""
     normal = shot.gbuffer.normal.astype(np.float64)
     place = camera_center(camera) + shot.gbuffer.depth[..., None] * camera_rays(camera).reshape(normal.shape)
     offset = np.round((normal * place).sum(axis=-1) / PLANES + 0.3).astype(np.int64)
@@ -284,7 +285,7 @@ def _surfaces_of(shot: Shot, camera: Camera) -> Int[np.ndarray, "h w"]:
 
 
 def _air(context: SceneContext, view: View) -> float:
-    """Metres from a camera to the nearest box of furniture, 0 inside one."""
+    """Metres from a camera to the nearest box of furniture; 0 inside a box."""
     eye = camera_center(view.camera)
     far = [np.inf]
     for thing in context.objects:

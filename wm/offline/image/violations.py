@@ -1,8 +1,7 @@
-"""How an image model leaves the scaffold it was shown: a door drawn shut, a thing missing, there twice, or elsewhere.
+"""Violations of the scaffold by one image: a doorway drawn shut, or a thing missing, drawn twice, or drawn elsewhere.
 
-A violation is a change of the world for one sample, so what is drawn and the depth of it agree. It is looked for among what the
-view shows plainly: a doorway or a thing that covers at least PLAIN of the image. Where a view has nothing of the sort, the kind
-that was drawn does not happen.
+A violation is an edit of the world for one image, so that the image and its depth agree. Only a doorway or a thing that covers
+at least PLAIN of the image can be affected. If the view has none, there is no violation.
 """
 
 import dataclasses
@@ -23,22 +22,22 @@ from wm.types import GBuffer, SceneObject, View
 
 KINDS = ("closed", "missing", "added", "moved")
 PLAIN = 0.005
-"""Share of the image that a doorway or a thing covers before a model gets it wrong."""
+"""Smallest share of the image that a doorway or a thing must cover to be part of a violation."""
 SOLID = 0.15
-"""Metres of depth below which a thing on a wall is a picture and no structure."""
+"""Metres. A thing on a wall that is less deep is not part of violations, since depth hardly shows it."""
 ASTRAY = (0.4, 1.2)
-"""Metres by which a moved thing stands elsewhere."""
+"""Smallest and largest distance, in metres, by which a thing is moved."""
 APART = 1.2
-"""Metres between the camera and a thing that was added."""
+"""Smallest horizontal distance, in metres, between the camera and a thing that is added."""
 TRIES = 12
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ScaffoldViolation:
-    """One way in which a sample leaves the scaffold, and the edit of the world that draws it."""
+    """A violation, and the edit of the world that draws it."""
 
     kind: str  # one of KINDS
-    what: str  # label of the thing, "door" for a doorway
+    what: str  # label of the thing; "door" for a doorway
     edit: Edit
 
 
@@ -46,12 +45,12 @@ def draw_violation(
     shares: Mapping[str, float], context: SceneContext, view: View, gbuffer: GBuffer, thing: np.ndarray, rng: np.random.Generator,
     *, objects: bool = True,
 ) -> ScaffoldViolation | None:  # fmt: skip
-    """What goes wrong in one sample; None for nothing.
+    """The violation of one image; None for an image without one.
 
     Args:
-      shares: of all samples, by kind (KINDS), in which that goes wrong.
-      gbuffer, thing: what the view shows without: the [h, w] object of each pixel, OUTSIDE for structure.
-      objects: whether the condition shows objects: where it shows none, none can be missing.
+      shares: share of the images with a violation of each kind in KINDS.
+      gbuffer, thing: the view without a violation: its G-buffer and the [h, w] object of each pixel, OUTSIDE for structure.
+      objects: whether the condition shows objects; if not, only doorways can be affected.
     """
     draw = float(rng.random())
     for kind in KINDS:
@@ -64,7 +63,7 @@ def draw_violation(
 def violation(
     kind: str, context: SceneContext, view: View, gbuffer: GBuffer, thing: np.ndarray, rng: np.random.Generator
 ) -> ScaffoldViolation | None:
-    """A violation of one kind, None where the view has nothing for it. Raises: ValueError for a kind that is not in KINDS."""
+    """A violation of one kind; None if the view shows nothing suitable. Raises: ValueError if `kind` is not in KINDS."""
     if kind == "closed":
         return _closed(context, view, gbuffer, rng)
     seen = np.bincount(thing[thing >= 0], minlength=len(context.objects)) / thing.size
@@ -89,7 +88,7 @@ def violation(
 
 
 def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.Generator) -> ScaffoldViolation | None:
-    """A doorway of the view's room that shows what lies behind it."""
+    """Closes a doorway of the view's room through which the view looks."""
     doors = []
     for k, portal in enumerate(portals(context.plan)):
         if portal.kind != "window" and view.room in portal.rooms and _seen_through(portal, view, gbuffer) >= PLAIN:
@@ -100,7 +99,7 @@ def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.
 
 
 def _seen_through(portal: Portal, view: View, gbuffer: GBuffer) -> float:
-    """Share of the image that shows what lies behind an opening."""
+    """Share of the image that shows something behind an opening."""
     eye, rays = camera_center(view.camera)[:2], camera_rays(view.camera).reshape(*gbuffer.depth.shape, 3)
     height = camera_center(view.camera)[2]
     toward = rays[..., :2] @ portal.normal
@@ -114,12 +113,12 @@ def _seen_through(portal: Portal, view: View, gbuffer: GBuffer) -> float:
 
 
 def _stands_out(thing: SceneObject) -> bool:
-    """Whether a thing has a depth that its picture shows."""
+    """Whether a thing is deep enough to be visible in a depth map."""
     return thing.support != "flat" and (thing.support != "wall" or float(thing.size[1]) >= SOLID)
 
 
 def _on_top(objects: tuple[SceneObject, ...], below: int) -> list[int]:
-    """Things that stand on a thing, and go where it goes."""
+    """The things that stand on a thing and are moved with it."""
     base = objects[below]
     low, high = base.vertices.min(axis=0), base.vertices.max(axis=0)
 
@@ -132,7 +131,7 @@ def _on_top(objects: tuple[SceneObject, ...], below: int) -> list[int]:
 
 
 def _elsewhere(context: SceneContext, chosen: int, rng: np.random.Generator) -> np.ndarray | None:
-    """A movement of a thing along the floor that leaves it in its room."""
+    """A transformation that moves a thing along the floor within its room; None if none was found in TRIES tries."""
     thing = context.objects[chosen]
     polygon = room_site(context.plan, thing.room).polygon
     middle = thing.T_world_object[:3, 3]
@@ -147,7 +146,7 @@ def _elsewhere(context: SceneContext, chosen: int, rng: np.random.Generator) -> 
 def _once_more(
     context: SceneContext, view: View, chosen: int, gbuffer: GBuffer, thing: np.ndarray, rng: np.random.Generator
 ) -> np.ndarray | None:
-    """A movement of a thing's copy to some floor that the view shows, not too near the camera."""
+    """A transformation that puts a copy of a thing on floor in the view, away from the camera; None if none was found."""
     floor = (gbuffer.normal[..., 2] > 0.9) & (thing < 0) & gbuffer.hit
     spots = np.argwhere(floor)
     if len(spots) == 0:
@@ -165,7 +164,7 @@ def _once_more(
 
 
 def _carried(middle: Float[np.ndarray, "3"], target: Float[np.ndarray, "3"], turn: float) -> Float[np.ndarray, "4 4"]:
-    """The transformation of the world that carries a point to another, turned about the vertical through it."""
+    """The transformation that moves the point `middle` to `target` and turns about the vertical axis through it by `turn`."""
     c, s = math.cos(turn), math.sin(turn)
     transform = np.eye(4)
     transform[:2, :2] = [[c, -s], [s, c]]

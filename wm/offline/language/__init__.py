@@ -1,9 +1,12 @@
-"""The offline language backend: a seeded grammar of houses.
+"""The offline language backend: a seeded grammar of floor plans.
 
-    grammar     the backend
-    programme   what each named room is and how large
-    building    what a theme means for the shell
-    massing     where rooms lie; rows, cluster, bars: how
-    facades     which stretches of wall rooms share
-    openings    doors, passages and windows
+    grammar    the backend: a plan in the JSON format that a language model is asked for
+    programme  what each named room is, and how large it is
+    building   what a theme says of the shell: walls, ceilings, doors, windows
+    massing    where the rooms lie: a layout of rows, a cluster or bars is chosen and drawn
+    rows       rooms side by side in one row
+    cluster    rooms around one central room
+    bars       a central room with corridors, and rooms along each
+    facades    the stretches of wall that two rooms share, or that face the open air
+    openings   doors, passages and windows
 """

@@ -1,6 +1,7 @@
-"""Large houses: a hall or gallery with bars, corridors that leave it at right angles with rooms along both sides.
+"""Large houses: a node (a hall or gallery) with bars. A bar is a corridor at a right angle to the node with rooms on both sides.
 
-Bars of one side stand a court apart, so that rooms between them have windows: long, U-, E- and H-shaped houses.
+Neighbouring bars are separated by a court, so that the rooms between them have windows. The houses are long, or shaped like a U,
+E or H.
 """
 
 from collections.abc import Sequence
@@ -13,27 +14,27 @@ from wm.offline.language.programme import Space, add_space
 from wm.offline.language.rows import Cell, Row, cell_area, is_small, lay_row, shift, stretch
 
 BAR_CELLS = 8
-COURT = (420, 600)  # cm between two bars of one side
+COURT = (420, 600)  # width of the court between two bars, cm
 NODE_WIDTHS = (260, 600)
 
 
 def node_with_bars(
     cores: Sequence[int], cells: Sequence[Cell], spaces: list[Space], building: Building, rng: np.random.Generator
 ) -> Rooms:
-    """A house of any size: the first core is the node, the others lead along bars; missing corridors are added to `spaces`."""
+    """The rooms of a house of any size: the first core is the node, the others are corridors of bars, missing ones are added."""
     node, *corridors = _node_first(cores, len(cells), spaces, building, rng)
-    if node != cores[0] and spaces[cores[0]].kind.name not in SLENDER:  # the hall is a room at the gallery's end
+    if node != cores[0] and spaces[cores[0]].kind.name not in SLENDER:  # the hall becomes a room at the end of the gallery
         corridors.remove(cores[0])
         cells = [Cell(cores[0]), *cells]
     plain = [cell for cell in cells if cell.small is None and not is_small(spaces[cell.host])]
-    caps = plain[: min(2, max(len(cells) - 3, 0))]  # the most public rooms, at the node's ends
+    caps = plain[: min(2, max(len(cells) - 3, 0))]  # the most public rooms are put at the ends of the node
     cells = [cell for cell in cells if cell not in caps]
     count = max(1, -(-len(cells) // BAR_CELLS))
-    cells += [Cell(i) for i in corridors[count:]]  # more halls than lead to rooms are rooms themselves
+    cells += [Cell(i) for i in corridors[count:]]  # halls that are not needed as corridors become ordinary rooms
     corridors = corridors[:count] + [add_space(spaces, "corridor", building, rng) for _ in range(count - len(corridors))]
     slender = spaces[node].kind.name in SLENDER
     one_side = count == 1 or (slender and count < 4 and rng.random() < 0.5)
-    direct = min(count, 2) if one_side and len(cells) >= 5 * count else 0  # rooms along the side that has no bars
+    direct = min(count, 2) if one_side and len(cells) >= 5 * count else 0  # number of rooms along the side without bars
     row = lay_row(cells[:direct], spaces, rng) if direct else Row(())
     cells = cells[direct:]
     groups = [cells[len(cells) * k // count : len(cells) * (k + 1) // count] for k in range(count)]
@@ -45,10 +46,10 @@ def node_with_bars(
     length = max(north_end, south_end, row.length, round(float(np.sqrt(area * 1.4)) / 10) * 10)
     if direct:
         row = stretch(row, length) if row.length >= 0.75 * length else shift(row, round((length - row.length) / 20) * 10)
-    slim = [float(np.sqrt(cell_area(cell, spaces) / 1.7)) for cell in caps]  # a cap is as wide as the node, and no tunnel
+    slim = [float(np.sqrt(cell_area(cell, spaces) / 1.7)) for cell in caps]  # a cap is as wide as the node
     width = round(min(max(area / length, NODE_WIDTHS[0], *slim), NODE_WIDTHS[1]) / 10) * 10
     rooms: Rooms = {node: [(0, 0, length, width)]}
-    for bar, x in north:  # the bar's x axis turns to y
+    for bar, x in north:  # the x axis of the bar becomes y
         rooms |= {i: [(x - y1, width + x0, x - y0, width + x1) for x0, y0, x1, y1 in rects] for i, rects in bar.items()}
     for bar, x in south:
         rooms |= {i: [(x - y1, -x1, x - y0, -x0) for x0, y0, x1, y1 in rects] for i, rects in bar.items()}
@@ -60,7 +61,7 @@ def node_with_bars(
 
 
 def _node_first(cores: Sequence[int], cells: int, spaces: list[Space], building: Building, rng: np.random.Generator) -> list[int]:
-    """The cores with the node in front: a hall for one or two bars, a gallery or corridor where it has to be long."""
+    """The cores, the node first: a hall for one or two bars, a gallery or corridor for more bars."""
     if cells <= 2 * BAR_CELLS + 2:
         return list(cores)
     slender = [i for i in cores if spaces[i].kind.name in SLENDER]
@@ -69,14 +70,18 @@ def _node_first(cores: Sequence[int], cells: int, spaces: list[Space], building:
 
 
 def _bar(corridor: int, cells: list[Cell], spaces: Sequence[Space], building: Building, rng: np.random.Generator) -> Rooms:
-    """A corridor from (0, 0) along x with rooms north and south of it and perhaps one at its far end."""
+    """The rooms of a bar: a corridor from (0, 0) along x, rooms north and south of it, and possibly one at its far end."""
     east = cells[-1:] if len(cells) >= 3 and rng.random() < 0.6 else []
     north, south = two_rows(cells[: len(cells) - len(east)], spaces, rng)
     return around(corridor, north, south, east, [], spaces, rng, width=passage_width(spaces[corridor], building, rng))
 
 
 def _stack(bars: Sequence[Rooms], corridors: Sequence[int], rng: np.random.Generator) -> tuple[list[tuple[Rooms, int]], int]:
-    """Bars beside each other along the node: each with the coordinate that its own y = 0 turns to, and the node's length."""
+    """Places bars side by side along the node.
+
+    Returns:
+      Each bar with the x, in the frame of the node, of its own y = 0; and the length of the node.
+    """
     placed, end, cursor = [], 0, None
     for bar, corridor in zip(bars, corridors):
         low = min(rect[1] for rects in bar.values() for rect in rects)

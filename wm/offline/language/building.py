@@ -1,4 +1,4 @@
-"""What a theme's words mean for the shell of a building: size, ceilings, doors, windows, how open the rooms are to each other."""
+"""The shell of a building as a theme describes it: sizes of rooms, ceilings, doors, windows, passages."""
 
 import dataclasses
 import re
@@ -8,18 +8,18 @@ import numpy as np
 
 @dataclasses.dataclass(frozen=True)
 class Building:
-    """The shell's habits. Lengths in metres; ranges are (low, high)."""
+    """Parameters of the shell. Lengths in metres; ranges are (low, high)."""
 
-    share: tuple[float, float]  # where in its kind's range of areas a room falls, 0 smallest .. 1 largest
+    share: tuple[float, float]  # range of the share at which a room's area lies in the range of its kind
     ceiling: tuple[float, float]
-    lofty: float  # how much higher a hall may be than the other rooms
+    lofty: float  # by how much a hall may be higher than the other rooms
     corridor: tuple[float, float]  # width between wall centre lines
     door: tuple[float, float]  # width, height
-    openness: float  # probability that two rooms that may be open to each other share a passage instead of a door
+    openness: float  # probability of a passage instead of a door between two rooms that may be open to each other
     window: tuple[float, float]  # width
     sill: float
-    head: float  # height of the lintel above the floor, lowered where the ceiling asks for it
-    spacing: float  # metres of wall a window needs beside it
+    head: float  # height of the lintel above the floor; lower under a low ceiling
+    spacing: float  # metres of wall between two windows
 
 
 _PLAIN = Building(
@@ -35,7 +35,7 @@ _PLAIN = Building(
     spacing=1.0,
 )
 
-# Later rows win where two speak of the same thing, so size words come first and style words after them.
+# A later row overrides earlier ones, so rows of size words come before rows of style words.
 _WORDS: tuple[tuple[str, dict], ...] = (
     ("mansion estate palace castle manor villa chateau cathedral temple grand opulent stately",
      {"share": (0.5, 1.0), "ceiling": (3.2, 3.6), "lofty": 0.6, "corridor": (1.8, 2.2), "head": 2.7}),
@@ -54,7 +54,7 @@ _WORDS: tuple[tuple[str, dict], ...] = (
 
 
 def building_of(theme: str) -> Building:
-    """The shell that a theme's words ask for; words it does not know change nothing."""
+    """The shell for a theme. Words that are not in the table are ignored."""
     words = set(re.findall(r"[a-z]+", theme.lower()))
     building = _PLAIN
     for keys, changes in _WORDS:
@@ -64,5 +64,5 @@ def building_of(theme: str) -> Building:
 
 
 def draw(interval: tuple[float, float], rng: np.random.Generator) -> float:
-    """A uniform draw from an interval, in metres, on a 5 cm grid."""
+    """A uniform sample from an interval in metres, rounded to 5 cm."""
     return round(float(rng.uniform(*interval)) * 20) / 20

@@ -1,6 +1,6 @@
-"""A cluster: one core rectangle from (0, 0) with rows of rooms along its sides and at its ends.
+"""A cluster: one core rectangle with a corner at (0, 0), rows of rooms along its sides, and rooms at its ends.
 
-North and south rows never reach past the core, so rooms at the ends may stand out as far as they like: nothing overlaps.
+The rows in the north and south never extend beyond the ends of the core, so that they cannot overlap the rooms at the ends.
 """
 
 import dataclasses
@@ -12,13 +12,13 @@ from wm.offline.language.building import Building, draw
 from wm.offline.language.programme import CIRCULATION, Space
 from wm.offline.language.rows import LIMB, Cell, Rect, Row, cell_area, is_small, lay_row, shift, stretch
 
-CONTACT = 180  # cm of wall that a door with its jambs needs between two rooms
+CONTACT = 180  # length of shared wall that a door with its jambs needs, cm
 SLENDER = ("corridor", "gallery")
-CORE_WIDTHS = (320, 680)  # of a core that is a room
+CORE_WIDTHS = (320, 680)  # smallest and largest width, cm, of a core other than a corridor
 Rooms = dict[int, list[Rect]]
-"""The rectangles that make each room, by index of its space."""
+"""The rectangles that form each room, by the index of its space."""
 
-# How many cells go west, north, east and south of a core that is a room.
+# Numbers of cells west, north, east and south of a core other than a corridor, by the total number of cells.
 _PATTERNS: dict[int, tuple[str, ...]] = {
     0: ("0000",),
     1: ("0100", "0010"),
@@ -33,14 +33,17 @@ _PATTERNS: dict[int, tuple[str, ...]] = {
 
 
 def cluster(core: int, cells: Sequence[Cell], spaces: Sequence[Space], building: Building, rng: np.random.Generator) -> Rooms:
-    """At most 9 cells around a corridor, 8 around any other core; cells in order from the front of the house to its back."""
+    """The rooms of a core with its cells, which are given in order from the front of the house to its back.
+
+    There are at most 9 cells around a corridor and 8 around any other core.
+    """
     if spaces[core].kind.name == "corridor" and len(cells) >= 2:
         ends = int(rng.integers(0, 3)) if len(cells) >= 4 else 0
         west, east = cells[: int(ends > 0)], cells[len(cells) - int(ends == 2) :]
         north, south = two_rows(cells[len(west) : len(cells) - len(east)], spaces, rng)
         return around(core, north, south, east, west, spaces, rng, width=passage_width(spaces[core], building, rng))
     patterns = _PATTERNS[len(cells)]
-    if spaces[core].kind.zone != CIRCULATION:  # a living room keeps a side to the open
+    if spaces[core].kind.zone != CIRCULATION:  # a living room keeps one end free for windows
         patterns = tuple(p for p in patterns if p[0] == "0" or p[3] == "0") or patterns
     counts = [int(digit) for digit in patterns[int(rng.integers(len(patterns)))]]
     ends = np.cumsum(counts).tolist()
@@ -50,7 +53,7 @@ def cluster(core: int, cells: Sequence[Cell], spaces: Sequence[Space], building:
 
 
 def two_rows(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Generator) -> tuple[Row, Row]:
-    """Cells dealt to a north and a south row so that both grow alike, each in order from front to back."""
+    """Divides cells into a north and a south row of similar area, each in order from front to back."""
     sides: tuple[list[Cell], list[Cell]] = ([], [])
     areas = [0.0, float(rng.uniform(-1, 1))]
     for cell in cells:
@@ -62,7 +65,7 @@ def two_rows(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Gene
 
 
 def passage_width(space: Space, building: Building, rng: np.random.Generator) -> int:
-    """Of a corridor, or of a gallery that serves as one."""
+    """Width, in cm, of a corridor or of a gallery that serves as one."""
     width = round(10 * draw(building.corridor, rng)) * 10
     return width if space.kind.name == "corridor" else width + LIMB // 2
 
@@ -78,7 +81,7 @@ def around(
     *,
     width: int | None,
 ) -> Rooms:
-    """Core and rooms; the core is as long as its rows, and as wide as its area asks for unless `width` says."""
+    """The core and the rooms around it. The core is as long as its rows. If `width` is None, its area decides its width."""
     area = 1e4 * spaces[core].area
     alone = round(float(np.sqrt(area * rng.uniform(1.0, 1.6))) / 10) * 10
     length = _common_length(*(0 if _all_small(row, spaces) else row.length for row in (north, south))) or alone
@@ -104,7 +107,7 @@ def _all_small(row: Row, spaces: Sequence[Space]) -> bool:
 
 
 def _common_length(a: int, b: int) -> int:
-    """The length of a core whose rows want to be this long: one row gives way where they nearly agree."""
+    """The length of a core between rows of these lengths. If they are similar, both rows are adapted to one length."""
     short, long = sorted((a, b))
     if short >= 0.8 * long or short == 0:
         return long
@@ -112,7 +115,7 @@ def _common_length(a: int, b: int) -> int:
 
 
 def _fit(row: Row, length: int, spaces: Sequence[Space], rng: np.random.Generator) -> Row:
-    """The row stretched to the core's length, or put at one end of it where it is much shorter or all of it small."""
+    """The row stretched to the length of the core. A much shorter row, or one of small rooms only, is put at one of its ends."""
     if not row.slots or row.length == length:
         return row
     if row.length > length or (row.length >= 0.78 * length and not _all_small(row, spaces)):
@@ -121,7 +124,7 @@ def _fit(row: Row, length: int, spaces: Sequence[Space], rng: np.random.Generato
 
 
 def _reach(row: Row, length: int, at_end: bool) -> int:
-    """How deep the room at the end of a row is, 0 where the row does not come to that end."""
+    """Depth of the last room of a row at an end of the core; 0 if the row does not extend to that end."""
     if not row.slots:
         return 0
     slot = row.slots[-1 if at_end else 0]
@@ -129,9 +132,9 @@ def _reach(row: Row, length: int, at_end: bool) -> int:
 
 
 def _end_row(cells: Sequence[Cell], spaces: Sequence[Space], width: int, high: int, low: int, rng: np.random.Generator) -> Row:
-    """Cells across the end of a core, in line with the core's walls or the rows' outer walls where that gives good rooms.
+    """A row of cells across an end of the core, aligned with walls of the core or of its rows if that gives good rooms.
 
-    `high` and `low` say how deep the rows beside this end are. The row's u is the core's y.
+    `high` and `low` are the depths of the north and south rows at this end. The u of the row is the y of the core.
     """
     area = sum(cell_area(cell, spaces) for cell in cells)
     spans = [(y0, y1) for y0 in sorted({0, -low}) for y1 in sorted({width, width + high})]
@@ -152,7 +155,7 @@ def _end_row(cells: Sequence[Cell], spaces: Sequence[Space], width: int, high: i
 
 
 def _end_cells(cells: Sequence[Cell], spaces: Sequence[Space], depth: float, rng: np.random.Generator) -> Row:
-    """A row of one common depth."""
+    """A row of cells of one common depth."""
     deep = max(round(depth / 10) * 10, LIMB)
     row = lay_row(cells, spaces, rng, depth=deep)
     fixed = (slot.corner is not None or is_small(spaces[slot.cell.host]) for slot in row.slots)
@@ -160,6 +163,6 @@ def _end_cells(cells: Sequence[Cell], spaces: Sequence[Space], depth: float, rng
 
 
 def _in_contact(row: Row, width: int) -> bool:
-    """Whether every cell has enough wall in common with a core's end from 0 to `width`."""
+    """Whether each cell shares enough wall for a door with the end of the core, which extends from 0 to `width`."""
     need = min(CONTACT, width)
     return all(min(slot.u + slot.width, width) - max(slot.u, 0) >= need for slot in row.slots)

@@ -1,4 +1,4 @@
-"""The walls of a drafted plan: which stretches two rooms share and which look outside. Whole centimetres, axis-aligned."""
+"""The walls of a drafted plan: the stretches that two rooms share, and those that face the open air. In whole centimetres."""
 
 import dataclasses
 from collections import defaultdict
@@ -10,7 +10,7 @@ from jaxtyping import Int
 
 @dataclasses.dataclass(frozen=True)
 class Side:
-    """One side of a room's polygon, from corner `k` to the next, on the line where coordinate `axis` is `at`."""
+    """One side of the polygon of a room, on the line on which the coordinate `axis` is `at`."""
 
     room: int
     start: tuple[int, int]
@@ -41,7 +41,7 @@ class Side:
 
 @dataclasses.dataclass(frozen=True)
 class Stretch:
-    """A part of a side with one thing behind it: another room's side, or the open air (None)."""
+    """A part of a side with either a side of one other room behind it, or the open air (None)."""
 
     side: Side
     behind: Side | None
@@ -50,7 +50,7 @@ class Stretch:
 
 
 def sides_of(polygons: Sequence[Int[np.ndarray, "_ 2"]]) -> list[Side]:
-    """Every side of every polygon (counter-clockwise, axis-aligned)."""
+    """All sides of all polygons, which are counter-clockwise and axis-aligned."""
     sides = []
     for room, polygon in enumerate(polygons):
         ring = [(int(x), int(y)) for x, y in polygon]
@@ -59,7 +59,7 @@ def sides_of(polygons: Sequence[Int[np.ndarray, "_ 2"]]) -> list[Side]:
 
 
 def stretches_of(sides: Sequence[Side]) -> list[Stretch]:
-    """Shared stretches (each once, seen from the room with the lower index) and outer ones, in a stable order."""
+    """Shared stretches (each once, as part of the room with the lower index) and outer ones, in a deterministic order."""
     lines: defaultdict[tuple[int, int], list[Side]] = defaultdict(list)
     for side in sides:
         lines[side.axis, side.at].append(side)

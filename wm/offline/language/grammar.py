@@ -1,8 +1,8 @@
-"""The offline language backend: a seeded grammar of houses that answers with floor plan JSON as a model would.
+"""The offline language backend: a seeded grammar that answers with a floor plan as JSON, as a language model does.
 
 A proposal is drafted from the theme (building.py), the programme (programme.py), a massing (rows.py, massing.py) and openings
-(openings.py). Like a model's it may be wrong, and like a model it is asked again with the violations: when only openings were
-wrong it keeps the rooms and places openings anew, otherwise it drafts another house.
+(openings.py). It may break rules, as the proposal of a model may. The grammar is then asked again with the violations: if only
+openings broke rules, it keeps the rooms and draws new openings; otherwise it drafts another house.
 """
 
 import dataclasses
@@ -27,16 +27,16 @@ _OF_OPENINGS = ("opening", "door", "window", "passage")
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
 class Settings(BackendSettings):
-    """The grammar has no knobs."""
+    """The grammar has no settings of its own."""
 
     backend: str = setting(__name__, "The offline grammar of houses.")
 
 
 class Grammar:
-    """The grammar as a `LanguageBackend`. It keeps no state: the same arguments give the same text."""
+    """The grammar as a `LanguageBackend`. It has no state: equal arguments give equal text."""
 
     def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> str:
-        """A floor plan as JSON text; rooms in the order of the programme, added corridors after them."""
+        """A floor plan as JSON text. Its rooms are in the order of the programme; corridors that were added come after them."""
         building = building_of(theme)
         asked_again = zlib.crc32(previous.encode()) if previous is not None else 0
         rng = np.random.default_rng(np.random.SeedSequence([seed, zlib.crc32(theme.encode()), asked_again]))
@@ -52,26 +52,26 @@ class Grammar:
 
 
 def make(settings: Settings, context: SceneContext | None = None) -> Grammar:
-    """The backend; it needs neither settings nor a scene."""
+    """The backend. It uses neither settings nor a scene."""
     return Grammar()
 
 
 def _ceilings(spaces: list[Space], building: Building, rng: np.random.Generator) -> list[int]:
-    """Heights in cm: one for the house, halls and atria higher where the theme builds so."""
+    """Ceiling heights in cm: one height for the house; halls and atria may be higher, depending on the theme."""
     common = round(100 * draw(building.ceiling, rng))
     lofty = round(20 * building.lofty * rng.uniform(0.4, 1.0)) * 5
     return [common + (lofty if s.kind.zone == CIRCULATION and s.kind.name != "corridor" else 0) for s in spaces]
 
 
 def _only_openings(violations: list[str]) -> bool:
-    """Whether every violation ("room <id>: <rule>: <message>") is of openings, or of rooms that lost their door by one."""
+    """Whether all violations ("room <id>: <rule>: <message>") are about openings, or about rooms that became unreachable."""
     rules = [violation.split(": ")[1] if violation.count(": ") >= 2 else violation for violation in violations]
     of_openings = [any(word in rule for word in _OF_OPENINGS) for rule in rules]
     return any(of_openings) and all(ours or rule == "unreachable" for ours, rule in zip(of_openings, rules))
 
 
 def _read_back(previous: str) -> tuple[list[Space], list[np.ndarray], list[int]] | None:
-    """The rooms of a proposal of this grammar; None where the text is not one."""
+    """The rooms of a proposal of this grammar; None if the text is not such a proposal."""
     try:
         rooms = json.loads(previous)["rooms"]
         polygons = [np.round(100 * np.array(room["floor_polygon"], float)).astype(np.int64) for room in rooms]

@@ -1,8 +1,8 @@
-"""Massing: where the rooms of a programme lie, as polygons on a 10 cm grid.
+"""Massing: the positions and shapes of the rooms of a programme, as polygons on a 10 cm grid.
 
-A small house is a cluster around its hall, corridor, atrium or living room (cluster.py); a large one has bars (bars.py). Of a
-handful of sketches the one with the best rooms is kept. Rules are not checked here: a draft that went wrong is the
-validator's to refuse.
+A small house is a cluster around its hall, corridor, atrium or living room (cluster.py); a large one has bars (bars.py). Several
+sketches are drawn and the one with the best rooms is kept. The rules of floor plans are not checked here but when the proposal
+is validated.
 """
 
 from collections.abc import Sequence
@@ -29,8 +29,7 @@ def draft(
     """The best of several sketches.
 
     Returns:
-      the spaces, with the corridors that were added behind them, and for each its polygon: whole centimetres,
-      counter-clockwise.
+      The spaces, followed by corridors that were added, and the polygon of each: counter-clockwise, in whole centimetres.
     """
     best: tuple[float, list[Space], Rooms] | None = None
     for _ in range(SKETCHES):
@@ -54,27 +53,27 @@ def _sketch(spaces: list[Space], building: Building, rng: np.random.Generator) -
 
 
 def _pick_cores(spaces: list[Space], building: Building, rng: np.random.Generator) -> tuple[list[int], list[int]]:
-    """The rooms that lead to others, hub first, and the rest."""
+    """Indices of the cores (rooms that lead to others), the hub first, and of all other rooms."""
     leading = [i for i, space in enumerate(spaces) if space.kind.zone == CIRCULATION]
     leading.sort(key=lambda i: (_HUBS.index(spaces[i].kind.name), i))
-    leading = leading[:1] + [i for i in leading[1:] if spaces[i].kind.name in SLENDER]  # a second great hall is a room to go to
+    leading = leading[:1] + [i for i in leading[1:] if spaces[i].kind.name in SLENDER]  # not a second great hall
     rest = [i for i in range(len(spaces)) if i not in leading]
     if not leading and len(rest) > 6:
         leading = [add_space(spaces, "corridor", building, rng)]
-    elif not leading:  # a small house without a hall: its most public room leads to the others
+    elif not leading:  # a small house without a hall: its most public room is the core
         leading = [min(rest, key=lambda i: (spaces[i].kind.zone != PUBLIC, is_small(spaces[i]), spaces[i].kind.rank, i))]
     return leading, [i for i in rest if i not in leading]
 
 
 def _in_order(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Generator) -> list[Cell]:
-    """From the front of the house to its back, with a little chance."""
+    """The cells in order from the front of the house to its back, with some random variation."""
     noise = rng.uniform(0, 1.2, len(cells))
     order = np.argsort([spaces[cell.host].kind.rank + noise[k] for k, cell in enumerate(cells)], kind="stable")
     return [cells[k] for k in order]
 
 
 def _flaws(rooms: Rooms, spaces: Sequence[Space]) -> float:
-    """How far a sketch is from good rooms: wrong areas, long ones, and a ragged outline of the house."""
+    """The cost of a sketch: for areas other than wanted, for elongated rooms, and for a long outline of the house."""
     flaws = 0.0
     for i, rects in rooms.items():
         x0, y0, x1, y1 = np.array(rects).T
@@ -89,7 +88,7 @@ def _flaws(rooms: Rooms, spaces: Sequence[Space]) -> float:
 
 
 def _polygons(rooms: Rooms, rng: np.random.Generator) -> list[Int[np.ndarray, "_ 2"]]:
-    """Rectangles joined, turned and mirrored by chance, moved to the first quadrant."""
+    """The polygons of the rooms, turned and mirrored at random and moved to the first quadrant."""
     turn = _QUARTER_TURNS[int(rng.integers(4))]
     if rng.random() < 0.5:
         turn = turn @ np.array([[-1, 0], [0, 1]])
@@ -103,7 +102,7 @@ def _polygons(rooms: Rooms, rng: np.random.Generator) -> list[Int[np.ndarray, "_
 
 
 def _corners(ring: Int[np.ndarray, "_ 2"]) -> Int[np.ndarray, "_ 2"]:
-    """Counter-clockwise, without points in the middle of a side."""
+    """The polygon counter-clockwise and without points in the middle of a side."""
     before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
     ring = ring[before[:, 0] * after[:, 1] != before[:, 1] * after[:, 0]]
     x, y = ring.T

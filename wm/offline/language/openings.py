@@ -1,7 +1,7 @@
-"""Doors, passages and windows for a massing: every room reached, furniture walls left whole, light from outside.
+"""Doors, passages and windows for a massing. Every room can be reached.
 
-Doors stand near a corner of the smaller room, so that its walls stay free; passages in the middle of their wall. Lengths
-are whole centimetres along a wall's line.
+Doors lie near a corner, so that the rest of the wall is free for furniture; passages lie in the middle of their wall. Lengths are
+whole centimetres along the line of a wall.
 """
 
 import dataclasses
@@ -16,13 +16,13 @@ from wm.offline.language.building import Building, draw
 from wm.offline.language.facades import Side, Stretch, sides_of, stretches_of
 from wm.offline.language.programme import CIRCULATION, PRIVATE, PUBLIC, WET, Space
 
-JAMB = 38  # cm from a wall's centre line to a door: 0.3 m of wall beside it
-TIGHT = 24  # where no more room is
-APART = 30  # cm of wall between two openings: many times what a plan may have (wm.geometry.plan.openings.APART)
+JAMB = 38  # cm from the centre line of a crossing wall to a door, which leaves 0.3 m of wall
+TIGHT = 24  # the same, cm, if the wall is too short for JAMB
+APART = 30  # cm of wall between two openings: many times the minimum of a plan (wm.geometry.plan.openings.APART)
 CORNER = 50  # cm from a window to the end of its wall
-OUTLOOK = 120  # cm of open air before a window that is worth having: four times what a plan may have (wm.geometry.plan.rules)
+OUTLOOK = 120  # cm of open air in front of a window: four times the minimum of a plan (wm.geometry.plan.rules)
 
-# Pairs of kinds that are joined where they touch, beside the way every room has to the core.
+# Pairs of kinds that may have a further door between them if they share a wall.
 _FRIENDS = {
     frozenset(pair)
     for pair in (
@@ -31,15 +31,15 @@ _FRIENDS = {
         ("hall", "living"),
     )
 }  # fmt: skip
-_JOINED = 0.7  # probability that such a pair is
+_JOINED = 0.7  # probability of that door
 
 
 @dataclasses.dataclass(frozen=True)
 class Hole:
-    """An opening that the grammar has drawn, from `low` to `high` along its side's line.
+    """An opening that the grammar has drawn, from `low` to `high` along the line of its side.
 
-    It stays apart from the plan's `Opening` (wm.geometry.plan.records) because it is made before there is a plan: it lies on a
-    side of the massing, in whole centimetres. grammar.py writes it as an opening of the plan's JSON.
+    It is another record than the plan's `Opening` (wm.geometry.plan.records) because it exists before there is a plan: it lies on
+    a side of the massing, in whole centimetres. grammar.py writes it as an opening of the plan's JSON.
     """
 
     kind: str
@@ -58,12 +58,12 @@ def draw_openings(
     building: Building,
     rng: np.random.Generator,
 ) -> list[Hole]:
-    """Openings for every room, doors and passages first.
+    """Openings for all rooms: first doors and passages, then windows.
 
     Args:
-      polygons: [k, 2] of each room, cm, counter-clockwise, axis-aligned.
-      spaces: what each room is.
-      ceilings: height of each room, cm.
+      polygons: [k, 2] polygon of each room, cm, counter-clockwise, axis-aligned.
+      spaces: the rooms of the programme.
+      ceilings: ceiling height of each room, cm.
     """
     stretches = stretches_of(sides_of(polygons))
     shared = [stretch for stretch in stretches if stretch.behind is not None]
@@ -94,7 +94,7 @@ def _usable(stretch: Stretch, margin: int) -> int:
 
 
 def _tree(shared: Sequence[Stretch], spaces: Sequence[Space], rng: np.random.Generator) -> list[Stretch]:
-    """The walls that doors must go through to reach every room from the first hub, by the most natural ways (Prim)."""
+    """The shared walls with doors that connect all rooms to the hub: a spanning tree of least cost (Prim's algorithm)."""
     hub = min(range(len(spaces)), key=lambda i: (spaces[i].kind.zone != CIRCULATION, spaces[i].kind.rank, i))
     costs = [_awkward(stretch, spaces, hub) + 0.5 * rng.random() for stretch in shared]
     reached, tree = {hub}, []
@@ -108,7 +108,7 @@ def _tree(shared: Sequence[Stretch], spaces: Sequence[Space], rng: np.random.Gen
 
 
 def _awkward(stretch: Stretch, spaces: Sequence[Space], hub: int) -> float:
-    """How odd a way through this wall would be; the hub of a house without a hall is as good as one."""
+    """The cost of a door in this wall: low if it leads to a hall, a corridor or the hub, high between unrelated rooms."""
     a, b = (spaces[room].kind for room in sorted(_rooms(stretch)))
     zones = {a.zone, b.zone}
     tight = 1.0 if _usable(stretch, JAMB) < 90 else 0.0
@@ -129,7 +129,7 @@ def _door(
     holes: Sequence[Hole],
     rng: np.random.Generator,
 ) -> Hole:
-    """A door or passage in this wall where it disturbs the fewest other openings."""
+    """A door or passage in this wall, at the position that conflicts least with other openings."""
     a, b = (spaces[room].kind for room in sorted(_rooms(stretch)))
     ceiling = min(ceilings[room] for room in _rooms(stretch))
     both_lead = a.zone == b.zone == CIRCULATION
@@ -156,7 +156,7 @@ def _door(
 
 
 def _disturbs(stretch: Stretch, low: int, high: int, holes: Sequence[Hole]) -> float:
-    """How much an opening here would be in the way of others: overlaps, half facing ones, ones around the corner."""
+    """The cost of an opening here: it overlaps another one, partly faces one, or lies around the corner from one."""
     cost, side = 0.0, stretch.side
     rooms = _rooms(stretch)
     for hole in holes:
@@ -183,7 +183,7 @@ def _windows(
     building: Building,
     rng: np.random.Generator,
 ) -> list[Hole]:
-    """Evenly spaced windows on the longest outer walls, as many as the floor area asks for."""
+    """Evenly spaced windows in the longest outer walls. Their number depends on the floor area."""
     zone = space.kind.zone
     width = round(100 * draw(building.window, rng))
     sill, head = round(100 * building.sill), min(round(100 * building.head), ceiling - 25)
@@ -198,7 +198,7 @@ def _windows(
         fitting = int((clear + 100 * building.spacing) // (width + 100 * building.spacing))
         each = width
         if fitting == 0 and clear >= 60 and not holes:
-            fitting, each = 1, clear // 5 * 5  # better a narrow window than a dark room
+            fitting, each = 1, clear // 5 * 5  # a narrow window is better than none
         count = min(fitting, wanted - len(holes), 3)
         if count <= 0 or not _open_air(stretch, shapes):
             continue
@@ -210,7 +210,7 @@ def _windows(
 
 
 def _open_air(stretch: Stretch, shapes: np.ndarray) -> bool:
-    """Whether no room stands right before this stretch of outer wall."""
+    """Whether there is open air in front of this stretch of outer wall, for at least OUTLOOK."""
     side = stretch.side
     near, far = sorted((side.at + side.outward, side.at + side.outward * OUTLOOK))
     low, high = (near, stretch.low + 1), (far, stretch.high - 1)

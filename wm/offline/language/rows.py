@@ -1,7 +1,7 @@
-"""Rows of rooms: cells side by side along a frontage.
+"""Rows of rooms: cells side by side along a straight front.
 
-A row lives in its own frame: u along the frontage, v away from it, whole centimetres on a 10 cm grid. A cell is one room, or
-a room with a small one in one of its corners, which makes the larger room L-shaped.
+A row has its own frame: u along the front, v away from it, in whole centimetres on a 10 cm grid. A cell is one room, or a room
+with a small room in one of its corners, which makes the larger room L-shaped.
 """
 
 import dataclasses
@@ -12,10 +12,10 @@ import numpy as np
 
 from wm.offline.language.programme import SERVICE, WET, Space
 
-LIMB = 240  # cm between wall centre lines: 2 m and a little more is left inside
-NARROWEST = 290  # cm of frontage of a room that is not small
+LIMB = 240  # smallest width of a part of a room, cm between wall centre lines: a little more than 2 m is left inside
+NARROWEST = 290  # smallest width along the front of a room that is not small, cm
 DEEPEST, SHALLOWEST = 640, 290
-STEP = 80  # cm: the least difference in depth between neighbours
+STEP = 80  # smallest difference in depth between neighbours that is kept, cm
 
 Rect = tuple[int, int, int, int]
 """x0, y0, x1, y1 in cm."""
@@ -35,7 +35,7 @@ class Slot:
     u: int
     width: int
     depth: int
-    corner: Rect | None  # of the small room, in the row's frame
+    corner: Rect | None  # the small room, in the frame of the row
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Row:
         return sum(_least_width(slot) for slot in self.slots)
 
     def rooms(self) -> dict[int, list[Rect]]:
-        """The rectangles that make each room, in the row's frame."""
+        """The rectangles that form each room, in the frame of the row."""
         rooms: dict[int, list[Rect]] = {}
         for slot in self.slots:
             whole = (slot.u, 0, slot.u + slot.width, slot.depth)
@@ -68,7 +68,7 @@ def is_small(space: Space) -> bool:
 
 
 def make_cells(indices: Sequence[int], spaces: Sequence[Space], rng: np.random.Generator) -> list[Cell]:
-    """Pairs about two small rooms in three with a room that likes one in its corner; the rest stand alone."""
+    """Cells of these rooms. About two thirds of the small rooms are put into the corner of a suitable room."""
     hosts = [i for i in indices if not is_small(spaces[i])]
     cells = {i: Cell(i) for i in hosts}
     alone: list[Cell] = []
@@ -84,15 +84,15 @@ def make_cells(indices: Sequence[int], spaces: Sequence[Space], rng: np.random.G
 
 
 def cell_area(cell: Cell, spaces: Sequence[Space]) -> float:
-    """Square centimetres."""
+    """Wanted area of a cell in square centimetres."""
     return 1e4 * (spaces[cell.host].area + (spaces[cell.small].area if cell.small is not None else 0.0))
 
 
 def lay_row(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Generator, *, depth: int | None = None) -> Row:
-    """Cells side by side from u = 0 with about their wanted areas.
+    """A row of these cells from u = 0, with about their wanted areas.
 
     Args:
-      depth: of the row; None takes one that gives rooms good proportions.
+      depth: depth of the row in cm; None selects a depth that gives rooms good proportions.
     """
     large = [cell_area(cell, spaces) for cell in cells if not is_small(spaces[cell.host])]
     if depth is None:
@@ -103,21 +103,21 @@ def lay_row(cells: Sequence[Cell], spaces: Sequence[Space], rng: np.random.Gener
         slot = _lay_cell(cell, spaces, u, depth, rng)
         slots.append(slot)
         u += slot.width
-    for k in [*range(1, len(slots)), *range(len(slots) - 2, -1, -1)]:  # there and back
+    for k in [*range(1, len(slots)), *range(len(slots) - 2, -1, -1)]:  # forwards and backwards
         beside = slots[k - 1 : k] + slots[k + 1 : k + 2]
         near = [other.depth for other in beside if 0 < abs(other.depth - slots[k].depth) < STEP]
-        if near and slots[k].corner is None:  # a step in the outer wall is worth building or it is not made
+        if near and slots[k].corner is None:  # small steps in the outer wall are removed
             slots[k] = dataclasses.replace(slots[k], depth=near[-1])
     return Row(tuple(slots))
 
 
 def stretch(row: Row, length: int) -> Row:
-    """The row made this long, at least `row.shortest`; small rooms keep their size, the others share the difference."""
+    """The row with this length, at least `row.shortest`. Small rooms keep their size; the others share the difference."""
     widths = [slot.width for slot in row.slots]
     slack = length - sum(widths)
     if slack > 0:
         weights = [width if width >= NARROWEST else 0.25 * width for width in widths]
-    else:  # what each can spare
+    else:  # by how much each can shrink
         weights = [slot.width - _least_width(slot) for slot in row.slots]
     ends = np.round(np.cumsum(weights) / max(sum(weights), 1) * slack / 10).astype(int) * 10
     slots, u = [], 0
@@ -133,7 +133,7 @@ def stretch(row: Row, length: int) -> Row:
 
 
 def shift(row: Row, du: int) -> Row:
-    """The row moved along its frontage."""
+    """The row moved along its front by `du`."""
     moved = []
     for slot in row.slots:
         corner = slot.corner
@@ -161,10 +161,10 @@ def _lay_cell(cell: Cell, spaces: Sequence[Space], u: int, depth: int, rng: np.r
         wide = _clip(small / deep, LIMB, 360)
         width = max(_clip((area - small + wide * deep) / depth, NARROWEST, 1200), wide + LIMB)
         x0 = u if rng.random() < 0.5 else u + width - wide
-        y0 = 0 if rng.random() < 0.6 else depth - deep  # beside the frontage, or behind the room as an en suite
+        y0 = 0 if rng.random() < 0.6 else depth - deep  # at the front, or at the back as an en suite
         return Slot(cell, u, width, depth, (x0, y0, x0 + wide, y0 + deep))
     if rng.random() < 0.3:
-        depth = _clip(depth + rng.choice([-1, 1]) * rng.uniform(80, 150), SHALLOWEST, DEEPEST + 100)  # a bay or a recess
+        depth = _clip(depth + rng.choice([-1, 1]) * rng.uniform(80, 150), SHALLOWEST, DEEPEST + 100)  # a projection or a recess
     depth = _clip(depth, math.sqrt(area / 2.0), math.sqrt(area * 1.7))  # between twice as wide as deep and 1.7 times as deep
     return Slot(cell, u, _clip(area / depth, NARROWEST, 1600), depth, None)
 
@@ -178,5 +178,5 @@ def _without_corner(whole: Rect, corner: Rect) -> list[Rect]:
 
 
 def _clip(value: int | float, low: int | float, high: int | float) -> int:
-    """To whole decimetres within the limits."""
+    """The value clipped to the limits and rounded to whole decimetres, in cm."""
     return round(float(min(max(value, low), max(low, high))) / 10) * 10

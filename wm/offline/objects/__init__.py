@@ -1,1 +1,4 @@
-"""The offline objects backend: generator, parametric furniture arranged by room type."""
+"""The offline objects backend.
+
+    generator  parametric furniture, arranged by the type of the room
+"""

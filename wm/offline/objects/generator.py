@@ -1,4 +1,4 @@
-"""The offline objects backend: parametric furniture in the theme's style, arranged by the room's type."""
+"""The offline objects backend: parametric furniture in the style of the theme, arranged by the type of the room."""
 
 import dataclasses
 
@@ -21,7 +21,7 @@ class Settings(BackendSettings):
 
 @dataclasses.dataclass(frozen=True)
 class ProceduralObjects:
-    """Furnishes rooms out of the theme's words, the room's name and the seed."""
+    """Furnishes rooms according to the theme, the name of the room and the seed."""
 
     def furnish(self, context: SceneContext, room: int) -> list[SceneObject]:
         """The objects of one room, placed in world space.
@@ -30,11 +30,11 @@ class ProceduralObjects:
           room: index into the plan's rooms.
 
         Raises:
-          ValueError: the context's density is not a share.
+          ValueError: the density of the context is not between 0 and 1.
         """
         return furnish_room(context.plan, room, style_of(context.theme), seed=context.seed, density=context.density)
 
 
 def make(settings: Settings, context: SceneContext | None = None) -> ProceduralObjects:
-    """The offline objects backend; it keeps nothing of the scene it is made for."""
+    """The offline objects backend. It keeps no reference to the scene."""
     return ProceduralObjects()

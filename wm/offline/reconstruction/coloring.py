@@ -1,7 +1,7 @@
-"""Colours of reconstructed things, from the images that show them.
+"""Colours of the slots of reconstructed things, from the images that show them.
 
-A slot's colour is the median of the pixels in which its faces are seen; what varies around it is `texturing`'s. Those are the
-colours of lit surfaces; the surfaces' own are told apart for a whole room at once (wm.synth.lifting.unlit).
+The colour of a slot is the median of the pixels that show its faces; `texturing` adds the variation around it. These are colours
+of lit surfaces. wm.synth.lifting.unlit removes the light for all things of a room together.
 """
 
 from collections.abc import Sequence
@@ -16,13 +16,13 @@ from wm.types import SceneObject
 
 _SAMPLES = 1500
 _LEAST = 8
-"""Pixels that a slot must be seen in."""
+"""Smallest number of pixels from which the colour of a slot is taken."""
 
 
 def slot_colors(
     thing: SceneObject, observations: Sequence[Observation]
 ) -> tuple[Float[np.ndarray, "s 3"], Bool[np.ndarray, "s"]]:
-    """(the colour of each slot as the images show it, whether they do); a slot that is not seen, or that glows, keeps its own."""
+    """(colour of each slot, whether it comes from the images). A slot that is not visible, or that glows, keeps its colour."""
     colors, seen = thing.slot_colors.copy(), np.zeros(len(thing.slots), bool)
     pairs = [_slot_samples(thing, k) for k in range(len(thing.slots))]
     for k, points in enumerate(pairs):
@@ -39,7 +39,7 @@ def _slot_samples(thing: SceneObject, slot: int) -> np.ndarray:
 
 
 def _pixels(points: np.ndarray, observation: Observation) -> np.ndarray:
-    """[k, 3] colours of the pixels in which points are seen."""
+    """[k, 3] colours of the pixels that show the points; hidden points are left out."""
     pixels, z = project_points(observation.camera, points)
     height, width = observation.depth.shape
     inside = (z > 0.1) & (pixels >= 0).all(axis=1) & (pixels < [width, height]).all(axis=1)

@@ -1,4 +1,4 @@
-"""Labels and furniture kinds: which parametric template stands for a label, and the sizes that it is built in."""
+"""The parametric templates that a label selects, and the sizes in which they are built."""
 
 import dataclasses
 import functools
@@ -12,15 +12,15 @@ from wm.offline.style.finish import Style
 from wm.synth.lifting.vocabulary import sort_of
 
 ANYTHING = "chest"
-"""The template of a label that says nothing: a box with a lid."""
+"""The kind for a label that names no known kind: a box with a lid."""
 
 _BEYOND = 0.25
-"""Share of its range by which a kind is built smaller or larger than usual."""
+"""How far beyond its usual range of sizes a kind may be built, as a share of that range."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Template:
-    """A kind of furniture at its middle size, and the sizes that it is usually built in."""
+    """A kind of furniture built at the middle of its range of sizes, and that range."""
 
     kind: str
     style: Style
@@ -31,16 +31,16 @@ class Template:
 
 
 def kind_of(label: str) -> str:
-    """The furniture kind whose template stands for a label: a key of KINDS."""
+    """The kind of furniture (a key of KINDS) that a label selects."""
     sort = sort_of(label)
     return sort if sort in KINDS else ANYTHING
 
 
 def rebuilt(template: Template, size: Float[np.ndarray, "3"], rng: np.random.Generator | None = None) -> Piece:
-    """A template's piece built anew for about this size, and not stretched to it: legs stay as thick, and cushions as round.
+    """A new piece of the template's kind, built for about this size. It is not stretched, so that legs keep their thickness.
 
-    Pieces are built to nominal sizes, which legs that splay and taps go beyond: size and nominal size lie at the same share of
-    their ranges.
+    Pieces are built for nominal sizes, and parts such as splayed legs and taps reach beyond these. The nominal size is chosen at
+    the same share of its range as `size` has in the range of the template.
     """
     entry, span = KINDS[template.kind], template.high - template.low
     share = np.where(span > 1e-6, (size - template.low) / np.where(span > 1e-6, span, 1.0), 0.5)
@@ -51,7 +51,7 @@ def rebuilt(template: Template, size: Float[np.ndarray, "3"], rng: np.random.Gen
 
 @functools.lru_cache(maxsize=512)
 def template_of(kind: str, style: Style) -> Template:
-    """A kind's template in a style."""
+    """The template of a kind in a style."""
     entry = KINDS[kind]
     low, high = np.array(entry.low), np.array(entry.high)
     pieces = [make_piece(kind, style, np.random.default_rng(0), size=_size(at)) for at in (low, (low + high) / 2, high)]
@@ -61,7 +61,7 @@ def template_of(kind: str, style: Style) -> Template:
 
 @functools.lru_cache(maxsize=512)
 def templates_of(kind: str, style: Style) -> tuple[Template, ...]:
-    """A kind's templates in a style: one, but of lamps one for each shape that the sorts of lamp in the style's houses have."""
+    """The templates of a kind in a style: one per shape that its lamps may have for lamps, and one for all other kinds."""
     by_shape: dict[bytes, Template] = {}
     for sort in lamp_sorts(style):
         template = template_of(kind, with_lamp(style, sort))

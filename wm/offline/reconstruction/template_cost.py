@@ -1,14 +1,14 @@
-"""How well a template of a given size and pose explains what images show of a thing.
+"""The cost of a template of a given size and pose: how badly it explains the observations of a thing.
 
-    seen      every point seen lies on the template: distance along the template's normal, and a little along its surface
-    unseen    no part of the template stands where an image looks through it: before what the image shows there, outside the mask;
-              what lies flat is not where an image shows the bare floor
-    usual     sizes are those that the kind is built in; what no image shows is settled by this alone
-    room      nothing reaches into a wall or faces one closely; what stands with its back near a wall stands at it, squarely
+    seen      observed points lie on the template: distance along its normal, and with a lower weight along its surface
+    unseen    no part of the template lies in front of what an image shows outside the mask; no part of a flat template (a rug)
+              lies where an image shows the bare floor
+    usual     the size lies in the range of the kind; only this term decides dimensions that no image shows
+    room      the template does not reach into a wall or face one closely; if its back is near a wall, it stands squarely at it
 
-All are residuals over their standard deviations, as Gauss-Newton wants them; distances saturate at OUTLIER, so that a ragged
-mask's strays count for little. Poses are weighed many at once, a box a row: (x, y, z, yaw, width, depth, height), the fields of
-UprightBox.
+All terms are residuals divided by their standard deviations, as in Gauss-Newton. Distances saturate at OUTLIER, so that stray
+points of a ragged mask have little influence. Many poses are evaluated together, one box per row: (x, y, z, yaw, width, depth,
+height), the fields of UprightBox.
 """
 
 import dataclasses
@@ -26,31 +26,31 @@ from wm.offline.reconstruction.template_surface import TemplateSurface, surface_
 from wm.synth.backends import Observation
 
 OUTLIER = 0.1
-"""Metres at which a distance counts as somebody else's point."""
+"""Metres. A point at a much larger distance is treated as an outlier."""
 _SIGMA_SEEN, _SIGMA_UNSEEN = 0.02, 0.03
 _EVIDENCE = 60.0
-"""Independent measurements that all pixels of a thing are worth."""
+"""Number of independent measurements that all pixels of a thing together count as."""
 _SIGMA_WALL = 0.015
 _AT_WALL = 0.15
-"""Metres between a wall and a thing's back within which it is taken to stand at that wall."""
+"""Metres between a wall and the back of a thing up to which the thing is taken to stand at the wall."""
 _SQUARE = math.radians(4.0)
 _PARALLEL = math.cos(math.radians(16.0))
 _FACING, _BARRED = 0.35, 8.0
-"""Metres of floor that a thing wants before its front, and how much it minds a wall there."""
+"""Metres of free floor in front of a thing, and the residual if its front touches a wall."""
 _PROBES = 160
-"""Points of a template that are looked for in the images."""
+"""Number of points of a template that are projected into the images."""
 _STRAY = 2.0
-"""Pixels beside a mask that may still be the thing's: borders are ragged."""
+"""Pixels outside a mask that may still show the thing, since borders of masks are ragged."""
 _UNIT = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Evidence:
-    """Everything a fit looks at."""
+    """The input of the fit of one template."""
 
     template: Template
     surface: TemplateSurface
-    points: np.ndarray  # [n, 3] world points seen
+    points: np.ndarray  # [n, 3] observed points in world space
     views: tuple[tuple[Observation, np.ndarray], ...]  # each with the distance to its mask, at half its resolution, pixels
     site: Site
 
@@ -58,24 +58,24 @@ class Evidence:
 def evidence_of(
     template: Template, points: Float[np.ndarray, "n 3"], observations: Sequence[Observation], site: Site
 ) -> Evidence:
-    """What a template is fitted to."""
+    """The input of a fit: a template, observed points, the observations that they come from, and the room."""
     views = tuple((observation, _distance_to(observation.mask)) for observation in observations)
     return Evidence(template=template, surface=surface_of(template.piece), points=points, views=views, site=site)
 
 
 def _distance_to(mask: Bool[np.ndarray, "h w"]) -> Float[np.ndarray, "h2 w2"]:
-    """Pixels to the mask, for every second pixel of every second row."""
+    """Distance to the mask in pixels, for every second pixel of every second row."""
     return 2.0 * np.asarray(ndimage.distance_transform_edt(~mask[::2, ::2]), np.float32)
 
 
 def nearest(boxes: Float[np.ndarray, "b 7"], evidence: Evidence) -> Int[np.ndarray, "b n"]:
-    """For each seen point the point of the template that it is nearest to, in the template's own proportions."""
+    """Index of the template point nearest to each observed point, after both are scaled to the template's own size."""
     local = _in_box(boxes, evidence.points) / (boxes[:, None, 4:] / evidence.surface.size)
     return evidence.surface.tree.query(local)[1]
 
 
 def residuals(boxes: Float[np.ndarray, "b 7"], evidence: Evidence, matched: Int[np.ndarray, "b n"]) -> Float[np.ndarray, "b _"]:
-    """All residuals of a template that fills each box, its points matched with those seen as `nearest` says."""
+    """All residuals of a template that fills each box. `matched` is the template point of each observed point (`nearest`)."""
     weight_seen = math.sqrt(_EVIDENCE / max(len(evidence.points), 1)) / _SIGMA_SEEN
     return np.concatenate([
         weight_seen * _saturated(seen_distances(boxes, evidence, matched)),
@@ -94,7 +94,7 @@ def cost(boxes: Float[np.ndarray, "b 7"], evidence: Evidence) -> Float[np.ndarra
 def seen_distances(
     boxes: Float[np.ndarray, "b 7"], evidence: Evidence, matched: Int[np.ndarray, "b n"]
 ) -> Float[np.ndarray, "b n"]:
-    """Metres from each seen point to the template."""
+    """Distance from each observed point to the template, in metres."""
     surface = evidence.surface
     ratio = boxes[:, None, 4:] / surface.size
     gap = _in_box(boxes, evidence.points) - ratio * surface.points[matched]
@@ -112,7 +112,7 @@ def _in_box(boxes: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def _seen_through(boxes: np.ndarray, evidence: Evidence) -> np.ndarray:
-    """[b, probes] metres by which points of the template stand where an image, looking farther, shows them not to."""
+    """[b, probes] metres by which points of the template lie in space that an image shows to be empty."""
     local = evidence.surface.points[:_PROBES] * (boxes[:, None, 4:] / evidence.surface.size)
     c, s = np.cos(boxes[:, 3:4]), np.sin(boxes[:, 3:4])
     turned = np.stack([c * local[..., 0] - s * local[..., 1], s * local[..., 0] + c * local[..., 1], local[..., 2]], axis=2)
@@ -134,7 +134,7 @@ def _seen_through(boxes: np.ndarray, evidence: Evidence) -> np.ndarray:
 
 
 def _unusual(size: np.ndarray, template: Template) -> np.ndarray:
-    """[b, 6] how far sizes are from the kind's range, and, weakly, from its middle."""
+    """[b, 6] residuals of sizes outside the range of the kind, and, with a low weight, of sizes away from its middle."""
     low, high = template.low, template.high
     beyond = np.maximum(np.maximum(low - size, size - high), 0.0)
     spread = (high - low) / 2 + 0.05 * high
@@ -148,7 +148,7 @@ def _axes(boxes: np.ndarray) -> np.ndarray:
 
 
 def _in_walls(boxes: np.ndarray, site: Site) -> np.ndarray:
-    """[b, 4] how far each corner reaches into a wall."""
+    """[b, 4] residuals of corners that reach into a wall."""
     corners = boxes[:, None, :2] + (_UNIT * boxes[:, None, 4:6]) @ _axes(boxes)
     away = corners[:, :, None] - site.starts
     offset, along = (away * site.normals).sum(axis=3), (away * site.directions).sum(axis=3)
@@ -157,7 +157,7 @@ def _in_walls(boxes: np.ndarray, site: Site) -> np.ndarray:
 
 
 def _at_walls(boxes: np.ndarray, site: Site) -> np.ndarray:
-    """[b, 3] how close a wall is to the front, and the gap and the skew to the wall at the back."""
+    """[b, 3] residuals of a wall close to the front, and of the gap and the angle to a wall at the back."""
     _, before = _wall_beyond(boxes, site, -1.0)
     barred = _BARRED * np.maximum(1.0 - np.maximum(before, 0.0) / _FACING, 0.0)
     normal, gap = _wall_beyond(boxes, site, 1.0)
@@ -170,8 +170,10 @@ def _at_walls(boxes: np.ndarray, site: Site) -> np.ndarray:
 
 
 def _wall_beyond(boxes: np.ndarray, site: Site, side: float) -> tuple[np.ndarray, np.ndarray]:
-    """(normal [b, 2] of the wall that runs along a box's back (side 1) or front (-1), metres to it); infinitely far where there
-    is none."""
+    """(normal [b, 2] of the wall along the back (side 1) or front (side -1) of each box, distance [b] to it in metres).
+
+    The distance is infinite if there is no such wall.
+    """
     back = side * _axes(boxes)[:, 1]
     away = (boxes[:, :2] + back * boxes[:, 5:6] / 2)[:, None] - site.starts
     gaps, along = (away * site.normals).sum(axis=2), (away * site.directions).sum(axis=2)

@@ -1,14 +1,16 @@
-"""Size and pose of a thing from what images show of it: guesses by its outline, the best of them refined on the template's
-residuals, once more with the template built anew at the size that was found.
+"""Fits the size and pose of a template to observed points.
 
-Guesses: the yaws of the walls and of the smallest rectangle around the points seen from above, each in four quarter turns; in
-each, the extent of the points, completed to the kind's least and to its middle size on either side, for a thing may be hidden
-behind itself or behind another. What holds a thing fixes part of its pose: what stands touches the floor, what hangs the
-ceiling, and what is on a wall has its back to it.
+Initial guesses are made from the points and ranked by their cost. The best ones are refined; the best result is refined further,
+once with the template as it is and once with the template rebuilt at the size that was found, and the lower cost decides.
 
-Refinement is Levenberg and Marquardt's, all guesses at once: with r the residuals and J their differences along the free numbers
-of a box (seen points stay matched, as in iterated closest points), a step solves (J^T J + m diag J^T J) s = -J^T r, and m falls
-where the step helps and grows where it does not.
+Guesses: the yaws are those of the walls and of the smallest rectangle around the points seen from above, each in four quarter
+turns. For each yaw, the extent of the points is enlarged to the smallest and to the middle size of the kind, towards either side,
+since part of the thing may be hidden. The support fixes part of the pose: a standing thing touches the floor, a hanging one the
+ceiling, and a thing on a wall has its back to the wall.
+
+Refinement is the algorithm of Levenberg and Marquardt, for all guesses together. Let r be the residuals and J their derivatives,
+by differences, with respect to the free parameters of a box (points stay matched, as in iterated closest points). A step s solves
+(J^T J + m diag J^T J) s = -J^T r; the damping m is decreased after a step that lowers the cost and increased after any other.
 Source: Levenberg 1944; Marquardt 1963; Fitzgibbon, "Robust registration of 2D and 3D point sets", 2003 (LM for ICP).
 """
 
@@ -30,37 +32,37 @@ from wm.offline.reconstruction.template_surface import surface_of
 _ANCHORS = ((False, False), (False, True), (True, False), (True, True))
 _SAME_YAW = math.radians(6.0)
 _TRIED, _OF_A_YAW, _TRIES, _STEPS = 8, 2, 6, 12
-"""Guesses that are refined, how many of them share a yaw, by how many steps, and by how many the best of them."""
+"""Number of guesses that are refined, largest number of them with one yaw, steps of each, and steps of the best result."""
 _RANKED = 80
-"""Points by which guesses are ranked."""
+"""Size of the subsample of points by which guesses are ranked."""
 _DIFFERENCE = 1e-3
-"""Metres and radians over which residuals are differenced."""
+"""Step, in metres and radians, of the differences that approximate derivatives."""
 _DAMPED, _EASED, _HARDER = 1e-2, 0.3, 5.0
-"""Damping at first, and its factors after a step that helped and one that did not."""
+"""Initial damping, and its factors after a step that lowered the cost and after one that did not."""
 _LEAST = 0.005
-"""Metres below which no side shrinks."""
+"""Smallest length of a side, in metres."""
 _NEAR_WALL = 0.7
-"""Metres from a wall within which the points of what hangs on it lie."""
+"""Largest distance, in metres, between the points of a thing on a wall and that wall."""
 _FREE = {
     "floor": (0, 1, 3, 4, 5, 6), "flat": (0, 1, 3, 4, 5), "ceiling": (0, 1, 2, 3, 4, 5), "wall": (0, 1, 2, 4, 5, 6),
     "object": (0, 1, 2, 3, 4, 5, 6),
 }  # fmt: skip
-"""Which numbers of a box may change, by what holds a thing."""
+"""Indices of the parameters of a box that are free, by the support of the thing."""
 _SHEET = 0.12
-"""Metres below which the depth of what hangs on a wall is taken from its kind: less than a depth map tells."""
+"""Metres. If a kind on a wall is less deep, its depth is that of its template, since a depth map does not resolve it."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class TemplateFit:
-    """What a template came to."""
+    """The result of the fit of one template."""
 
     box: UprightBox
     cost: float  # half the sum of squared residuals
-    residual: float  # metres between the points seen and the template, median
+    residual: float  # median distance between the observed points and the template, metres
 
 
 def fit_template(evidence: Evidence) -> TemplateFit:
-    """The box that the template fills best."""
+    """The box with the lowest cost for the template."""
     boxes, costs = _refined(_best_guesses(evidence), evidence, _TRIES)
     best = boxes[[int(np.argmin(costs))]]
     anew = dataclasses.replace(evidence, surface=surface_of(rebuilt(evidence.template, best[0, 4:])))
@@ -71,7 +73,7 @@ def fit_template(evidence: Evidence) -> TemplateFit:
 
 
 def _best_guesses(evidence: Evidence) -> np.ndarray:
-    """[b, 7] the guesses worth refining, the best first, not too many of one yaw: quarter turns are told apart last."""
+    """[b, 7] the guesses of the lowest cost, the best first, with at most _OF_A_YAW of them for one yaw."""
     guesses = np.stack([_row(box) for box in _guesses(evidence)])
     few = dataclasses.replace(evidence, points=evidence.points[:: max(len(evidence.points) // _RANKED, 1)])
     ranked = guesses[np.argsort(cost(guesses, few), kind="stable")]
@@ -96,7 +98,7 @@ def _guesses(evidence: Evidence) -> list[UprightBox]:
 
 
 def _from_walls(point: np.ndarray, evidence: Evidence) -> np.ndarray:
-    """[w] metres of a point from each wall: off its plane, and beyond its ends."""
+    """[w] distance of a point from each wall in metres: from its plane, plus the distance beyond its ends."""
     site = evidence.site
     offset = ((point - site.starts) * site.normals).sum(axis=1)
     along = ((point - site.starts) * site.directions).sum(axis=1)
@@ -104,7 +106,7 @@ def _from_walls(point: np.ndarray, evidence: Evidence) -> np.ndarray:
 
 
 def _yaws(evidence: Evidence) -> list[float]:
-    """Turns worth trying, no two alike."""
+    """The yaws of the guesses, which differ from each other by more than _SAME_YAW."""
     yaws = [wall_yaw(normal) for normal in evidence.site.normals]
     rectangle = shapely.get_coordinates(shapely.oriented_envelope(shapely.MultiPoint(evidence.points[:, :2])))
     if len(rectangle) >= 4:
@@ -118,13 +120,13 @@ def _yaws(evidence: Evidence) -> list[float]:
 
 
 def _completed(yaw: float, evidence: Evidence, anchor: tuple[bool, bool], fill: Float[np.ndarray, "3"]) -> UprightBox:
-    """The box of the points at a yaw, made as large as `fill` at least; `anchor` says on which sides it is all seen."""
+    """The bounding box of the points at a yaw, enlarged to at least `fill`; its upper end stays along the axes in `anchor`."""
     template, points = evidence.template, evidence.points
     frame = UprightBox(0.0, 0.0, 0.0, yaw, 1.0, 1.0, 1.0).transform[:3, :3]
     local = points @ frame
     low, high = np.quantile(local, [0.01, 0.99], axis=0)
     size = np.clip(high - low, [*fill[:2], template.low[2]], np.maximum(template.high, high - low))
-    start = np.where([*anchor, True], high - size, low)  # from eye level, of most things the top is seen
+    start = np.where([*anchor, True], high - size, low)  # the top is kept, since it is visible for most things
     middle = frame @ (start + size / 2)
     width, depth, height = size.tolist()
     box = UprightBox(float(middle[0]), float(middle[1]), float(start[2]), yaw, width, depth, height)
@@ -132,7 +134,7 @@ def _completed(yaw: float, evidence: Evidence, anchor: tuple[bool, bool], fill: 
 
 
 def _held(box: UprightBox, evidence: Evidence) -> UprightBox:
-    """The box where what holds it wants it."""
+    """The box moved and resized so that it rests on its support."""
     template = evidence.template
     if template.support == "floor":
         top = max(box.top, 0.05)
@@ -148,7 +150,7 @@ def _held(box: UprightBox, evidence: Evidence) -> UprightBox:
 
 
 def _hung(row: np.ndarray, evidence: Evidence) -> np.ndarray:
-    """The box with its back on the wall that it faces away from."""
+    """The box moved and turned so that its back is at the wall that it faces away from."""
     site = evidence.site
     facing = np.abs([turn_between(float(row[3]), wall_yaw(normal)) for normal in site.normals])
     k = int(np.argmin(_from_walls(row[:2], evidence) + 10 * facing))
@@ -160,17 +162,17 @@ def _hung(row: np.ndarray, evidence: Evidence) -> np.ndarray:
 
 
 def _moved(boxes: np.ndarray, steps: np.ndarray, free: list[int], evidence: Evidence) -> np.ndarray:
-    """[b, 7] boxes after steps [b, k] of their free numbers, still held by what holds them."""
+    """[b, 7] boxes after steps [b, k] of their free parameters, still at the ceiling or the wall if that is their support."""
     moved = boxes.copy()
     moved[:, free] += steps
-    if evidence.template.support == "ceiling":  # the foot moves, the top stays
+    if evidence.template.support == "ceiling":  # the lower end moves and the top stays
         moved[:, 6] = boxes[:, 6] + boxes[:, 2] - moved[:, 2]
     moved[:, 4:] = np.maximum(moved[:, 4:], _LEAST)
     return np.stack([_hung(row, evidence) for row in moved]) if evidence.template.support == "wall" else moved
 
 
 def _refined(boxes: np.ndarray, evidence: Evidence, steps: int) -> tuple[np.ndarray, np.ndarray]:
-    """(boxes [b, 7] after so many steps of Levenberg and Marquardt, what they cost [b])."""
+    """(boxes [b, 7] after `steps` steps of Levenberg-Marquardt, their costs [b])."""
     free = _free(evidence)
     damping = np.full(len(boxes), _DAMPED)
     r, J = _linearised(boxes, free, evidence)
@@ -194,7 +196,7 @@ def _free(evidence: Evidence) -> list[int]:
 
 
 def _linearised(boxes: np.ndarray, free: list[int], evidence: Evidence) -> tuple[np.ndarray, np.ndarray]:
-    """(residuals [b, r], their derivatives [b, k, r] along the free numbers)."""
+    """(residuals [b, r], their derivatives [b, k, r] with respect to the free parameters)."""
     count = len(free) + 1
     steps = np.concatenate([np.zeros((1, len(free))), _DIFFERENCE * np.eye(len(free))])
     rows = _moved(np.repeat(boxes, count, axis=0), np.tile(steps, (len(boxes), 1)), free, evidence)

@@ -1,4 +1,4 @@
-"""Points on a template's surface, for comparing it with points that images show."""
+"""Points on the surface of a template, which are compared with observed points."""
 
 import dataclasses
 import math
@@ -15,17 +15,17 @@ _COUNT = 1200
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class TemplateSurface:
-    """Points on a piece of furniture at the size it was built in."""
+    """Points on the surface of a piece of furniture, at the size in which it was built."""
 
     size: np.ndarray  # [3] metres
     points: np.ndarray  # [m, 3] in the piece's frame
     normals: np.ndarray  # [m, 3] unit
     tree: KDTree
-    spacing: float  # metres between neighbouring points, about
+    spacing: float  # approximate distance between neighbouring points, metres
 
 
 def surface_of(piece: Piece) -> TemplateSurface:
-    """Points spread over a piece's surface by area."""
+    """Points sampled uniformly by area from the surface of a piece."""
     points, normals = surface_samples(piece.vertices, piece.faces, _COUNT)
     area = float(np.linalg.norm(face_crosses(piece.vertices[piece.faces]), axis=1).sum()) / 2
     return TemplateSurface(size=piece.size, points=points, normals=normals, tree=KDTree(points), spacing=math.sqrt(area / _COUNT))
@@ -34,7 +34,7 @@ def surface_of(piece: Piece) -> TemplateSurface:
 def surface_samples(
     vertices: Float[np.ndarray, "v 3"], faces: Int[np.ndarray, "f 3"], count: int
 ) -> tuple[Float[np.ndarray, "m 3"], Float[np.ndarray, "m 3"]]:
-    """(points, unit normals) spread over a mesh by area; the same mesh always gives the same ones."""
+    """(points, unit normals) sampled uniformly by area from a mesh. Equal meshes give equal samples."""
     rng = np.random.default_rng(7)
     crosses = face_crosses(vertices[faces])
     doubled_areas = np.linalg.norm(crosses, axis=1)

@@ -1,8 +1,8 @@
-"""Reconstruction by templates: a parametric piece of the label's kind, fitted to the points that images show, in their colours.
+"""Reconstruction by templates: a parametric piece of the kind that the label names, fitted to observed points and coloured.
 
-In go a label, masked RGB with depth in metres, and the walls of the room; of the thing itself, and of who drew it, nothing is
-known. So it serves photographs and any image model as well as the offline one: where a depth model gives depth up to scale and
-shift, `wm.synth.lifting.metric_depth` makes it metric by the empty room.
+Its input is a label, masked RGB images with depth in metres, and the walls of the room. It uses no knowledge of the drawn thing
+or of the image model, so that it also works with photographs and with other image models. If a depth model gives depth up to
+scale and shift, `wm.synth.lifting.metric_depth` makes it metric with the help of the empty room.
 
     observation = Observation(camera=camera, rgb=image, depth=metric_depth(estimate, bare, seed=0), mask=mask)
     made = TemplateReconstruction(style_of("gothic castle")).reconstruct("oak armchair", [observation], site, room, seed=0)
@@ -33,18 +33,18 @@ from wm.types import SceneObject
 
 VERSION = "1"
 _POINTS = 240
-"""Points a thing is fitted to."""
+"""Size of the subsample of observed points to which a template is fitted."""
 _OUTSIDE = 0.05
-"""Metres beyond the walls at which a thing's middle may come to lie."""
+"""Metres by which the middle of a thing may lie outside the room."""
 _SPLINTER = 0.5
-"""Share of its kind's least height below which a fit has gone astray."""
+"""A fit fails if its height is below this share of the smallest height of its kind."""
 _LEAST = 12
-"""Points below which nothing can be said."""
+"""Smallest number of observed points for a reconstruction."""
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
 class Settings(BackendSettings):
-    """Reconstruction by templates has no knobs."""
+    """Reconstruction by templates has no settings of its own."""
 
     backend: str = setting(__name__, "The offline reconstruction.")
 
@@ -53,19 +53,20 @@ class Settings(BackendSettings):
 class TemplateReconstruction:
     """The backend."""
 
-    style: Style  # what the theme's words say of furniture
+    style: Style  # the style of the theme, in which templates are built
 
     def reconstruct(
         self, label: str, observations: Sequence[Observation], site: Site, room: int, *, seed: int
     ) -> Reconstruction | None:
-        """One thing, in the frame of the first observation's camera; None where fewer than a dozen points are seen, or none fits.
+        """One thing, in the frame of the first observation's camera; None if it has too few observed points or no template fits.
 
         Args:
-          label: what it is, in any words: the last that names a kind of furniture decides; a box with a lid where none does.
-          observations: what each image shows of it; one is enough, two from opposite sides are better.
-          site: the room it stands in, which holds it: floor, ceiling and walls.
-          room: index of the room, kept in the result.
-          seed: of the points that are drawn from the masks, and of what no image decides.
+          label: the name of the thing in any words. The last word that names a kind of furniture selects the kind; a label
+            without such a word selects a box with a lid.
+          observations: the observations of the thing; one is enough, two from opposite sides are better.
+          site: the room in which the thing stands: its floor, ceiling and walls.
+          room: index of the room, which is stored in the result.
+          seed: seed of the subsample of points, and of details of the piece that no image shows.
         """
         kind = kind_of(label)
         share = _POINTS // len(observations)
@@ -90,19 +91,19 @@ class TemplateReconstruction:
 
 
 def make(settings: Settings, context: SceneContext) -> TemplateReconstruction:
-    """The reconstruction by templates in the style of the scene's theme; it has no settings."""
+    """The reconstruction by templates in the style of the scene's theme. It has no settings."""
     return TemplateReconstruction(style_of(context.theme))
 
 
 def _plausible(box: UprightBox, template: Template, site: Site) -> bool:
-    """Whether a fit stands in the room and is not a splinter of its kind."""
+    """Whether a fitted box stands in the room and is not much too low for its kind."""
     inside = bool(shapely.contains_xy(site.polygon.buffer(_OUTSIDE), box.x, box.y))
     flat = template.support == "flat"
     return inside and (flat or box.height > _SPLINTER * float(template.low[2]))
 
 
 def built(label: str, template: Template, box: UprightBox, room: int, *, seed: int) -> SceneObject:
-    """A piece of the template's kind that fills a box."""
+    """An object of the template's kind that fills a box."""
     size = np.array([box.width, box.depth, box.height])
     piece = rebuilt(template, size, np.random.default_rng(np.random.SeedSequence([seed, 0xB1])))
     T = box.transform

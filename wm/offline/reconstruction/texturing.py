@@ -1,15 +1,16 @@
 """Textures of reconstructed things, from the images that show them.
 
-    texels   on every plane of the thing's seen slots, as fine as a pixel of the image where it shows the thing
-    image    projected onto them as views are onto walls (wm.geometry.texture.accumulation): facing, occlusion, clean pixels first
-    light    taken off image by image, for they may differ in tint (`_unlit`): what is left varies around the slot's colour
-    fill     a texel that no image shows takes the colour of one beside it that one does, and else the slot's: copying the half
-             of a thing that is seen onto the other, mirrored, was further from the truth (experiments/object_lifting)
+    texels   lie on every planar surface of the visible slots; their size is that of an image pixel on the thing
+    image    is projected into them as views are into walls (wm.geometry.texture.accumulation)
+    light    is removed from each image separately, since images may differ in tint (`_unlit`); variation around the colour of
+             the slot is left
+    fill     a texel that no image shows gets the colour of a visible texel beside it, or else that of the slot. Mirroring the
+             visible half of a thing onto the other half gave larger errors (experiments/object_lifting)
 
-Only pixels inside the mask count, and only where the depth of the image is the thing's, and where no slot next to theirs has
-their colour rather: where the template is another than what was drawn, or a little beside it, nothing is smeared over it.
-Tiers of work: per thing, its texels and one tree of those seen; per observation, one G-buffer of the thing alone, no larger than
-its mask.
+A pixel is used if it lies inside the mask, if its depth is that of the thing, and if its colour is not closer to that of another
+slot nearby. So no wrong colours are projected where the template differs from what was drawn or is slightly displaced.
+Work per thing: its texels, and one tree of the visible ones. Per observation: one G-buffer of the thing alone, of the size of the
+bounding box of its mask.
 """
 
 import dataclasses
@@ -32,30 +33,30 @@ from wm.synth.backends import Observation
 from wm.types import Atlas, GBuffer, Mesh, SceneObject, SurfaceKind, Texture
 
 _TEXELS = 1 << 17
-"""Texels of one thing at most, seen or not: beyond, they are coarser than the image."""
+"""Largest number of texels of one thing. If it would have more, its texels are made coarser."""
 _FINEST = 2e-3
-"""Metres between texels at least."""
+"""Smallest distance between texels, in metres."""
 _ASIDE = 0.003
-"""Share of the image's width by which the outlines of slots may be off."""
+"""Expected displacement of the outlines of slots, as a share of the image width."""
 _SLOW = 0.1
-"""Metres over which light changes; what changes faster is the surface."""
+"""Metres over which light changes. Faster changes are attributed to the surface."""
 _HUE, _PRINT, _GRAIN = 0.1, 0.4, 0.3
-"""Logarithms of hue and of brightness that only surfaces reach, and the share of lesser brightness that is taken for theirs."""
+"""Differences of log hue and of log brightness that only surfaces reach, and the share of smaller ones attributed to surfaces."""
 _BESIDE = 3.0
-"""Texels from one that is seen within which a hidden one takes its colour."""
+"""Largest distance, in texels, from which a hidden texel takes the colour of a visible one."""
 _TURNED = 8.0
-"""Texels that two normals a radian apart count as."""
+"""Distance, in texels, that an angle of one radian between normals counts as."""
 _DARKEST = 0.01
-"""Linear colour below which ratios say nothing."""
+"""Smallest linear colour for which a ratio is meaningful; smaller ones are replaced by it."""
 
 
 def textured(thing: SceneObject, observations: Sequence[Observation], slots: Bool[np.ndarray, "s"]) -> SceneObject:
-    """The thing with what images show of it on its surface, around the colours of its slots.
+    """The thing with a texture from the images, whose colours vary around those of its slots.
 
     Args:
-      thing: in the world of the observations' cameras, its slots in the colours that the images show.
-      observations: what each image shows of it.
-      slots: which slots are textured; faces of the others keep their slot's colour.
+      thing: in world space; its slots have the colours that the images show.
+      observations: the observations of the thing.
+      slots: which slots are textured; faces of the others keep the colour of their slot.
     """
     mesh = _mesh_of(thing)
     views = _views(thing, mesh, observations)
@@ -77,7 +78,7 @@ def textured(thing: SceneObject, observations: Sequence[Observation], slots: Boo
 
 
 def _mesh_of(thing: SceneObject) -> Mesh:
-    """The thing alone."""
+    """A mesh of the thing alone."""
     zero = np.zeros(len(thing.faces), np.int32)
     return Mesh(
         vertices=thing.vertices, faces=thing.faces, face_room=zero + np.int32(thing.room),
@@ -86,9 +87,10 @@ def _mesh_of(thing: SceneObject) -> Mesh:
 
 
 def _views(thing: SceneObject, mesh: Mesh, observations: Sequence[Observation]) -> list[tuple[Observation, GBuffer, np.ndarray]]:
-    """(an observation cut to its mask, the thing alone as its camera sees it, the pixels [h, w] that show it) if there are any.
+    """(observation cropped to its mask, G-buffer of the thing alone, [h, w] pixels that show the thing) of each observation with
+    such pixels.
 
-    A mask's outermost pixels are left out: they mix the thing with what is behind it, and a ragged border shows that alone.
+    The outermost pixels of a mask are left out, since they may show what is behind the thing.
     """
     scene = build_ray_scene(mesh)
     views = []
@@ -103,7 +105,7 @@ def _views(thing: SceneObject, mesh: Mesh, observations: Sequence[Observation]) 
 
 
 def _cut(observation: Observation) -> Observation:
-    """The part of an image that a mask is in."""
+    """The observation cropped to the bounding box of its mask."""
     rows, columns = (np.flatnonzero(observation.mask.any(axis=axis)) for axis in (1, 0))
     y, x = int(rows[0]), int(columns[0])
     window = slice(y, int(rows[-1]) + 1), slice(x, int(columns[-1]) + 1)
@@ -114,7 +116,7 @@ def _cut(observation: Observation) -> Observation:
 
 
 def _of_another(thing: SceneObject, observation: Observation, gbuffer: GBuffer, aside: int) -> np.ndarray:
-    """[h, w] pixels that have rather the colour of another slot, which lies so many pixels aside."""
+    """[h, w] pixels whose colour is closer to that of another slot, which is visible `aside` pixels away."""
     colors = np.concatenate([thing.slot_colors, np.full((1, 3), np.inf, np.float32)])
     slot = np.append(thing.face_slot, np.int32(len(thing.slots)))[gbuffer.face]
     own = ((observation.rgb - colors[slot]) ** 2).sum(axis=2)
@@ -126,29 +128,30 @@ def _of_another(thing: SceneObject, observation: Observation, gbuffer: GBuffer, 
 
 
 def _footprint(views: list[tuple[Observation, GBuffer, np.ndarray]]) -> float:
-    """Metres across a pixel where the nearest image shows the thing."""
+    """Size of a pixel on the thing, in metres, in the image that shows it from nearest."""
     return min(float(np.median(gbuffer.depth[shown]) / np.min(observation.camera.focal)) for observation, gbuffer, shown in views)
 
 
 def _atlas(mesh: Mesh, surface: np.ndarray, texel: float) -> Atlas:
-    """Texels of this size, or as small as the limit allows."""
+    """An atlas with texels of this size, or larger ones if there would be more than _TEXELS."""
     area = float(np.linalg.norm(face_crosses(mesh.vertices[mesh.faces[surface >= 0]]), axis=1).sum()) / 2
     texel = max(texel, np.sqrt(area / _TEXELS))
     atlas = build_atlas(mesh, texel, surface)
-    while len(atlas.inside) > _TEXELS:  # charts are rectangles, and larger than what is on them
+    while len(atlas.inside) > _TEXELS:  # the estimate was too low, since a chart is a rectangle around its surface
         texel *= 1.02 * np.sqrt(len(atlas.inside) / _TEXELS)
         atlas = build_atlas(mesh, texel, surface)
     return atlas
 
 
 def _unlit(atlas: Atlas, plain: np.ndarray, T_world_object: np.ndarray) -> Atlas:
-    """The atlas without the light on it, its charts around their plain colours [c, 3].
+    """The atlas without the light of the image; the colours of each chart vary around its plain colour [c, 3].
 
-    In logarithms, a texel's offset from its plain colour is brightness b (the mean of the channels) and hue. The image's tint,
-    the mean hue, is taken off; and so is the light: the mean brightness of the texels around, `_SLOW` metres wide, that face the
-    same way and have the slot's hue. Of the brightness d that is left, light may still have made some: it is kept by
+    The offset of a texel's log colour from its log plain colour is split into brightness b (the mean of the channels) and hue.
+    The tint of the image, which is the mean hue, is subtracted. So is the light, which is the mean brightness of the texels that
+    lie within about `_SLOW` metres, face the same way, and have the hue of the slot. The brightness d that is left may still
+    contain light. It is multiplied by
         g = _GRAIN + (1 - _GRAIN) e / (1 + e),  e = (hue / _HUE)^2 + (d / _PRINT)^2,
-    for light changes brightness, by little, and only surfaces change hue as well.
+    since light changes brightness only slightly, and only surfaces change the hue too.
     Source: Grosse, Johnson, Adelson and Freeman, "Ground truth dataset and baseline evaluations for intrinsic images", 2009
     (colour Retinex), with means for thresholds on gradients.
     """
@@ -179,14 +182,14 @@ def _logs(colors: np.ndarray) -> np.ndarray:
 
 
 def _mean(atlases: list[Atlas]) -> Atlas:
-    """Atlases of one mesh as one, each texel's colour the mean by their weights."""
+    """Atlases of one mesh merged into one: the colour of each texel is their weighted mean."""
     weight = np.sum([atlas.weight for atlas in atlases], axis=0)
     total = np.sum([atlas.weight[:, None] * atlas.color for atlas in atlases], axis=0)
     return dataclasses.replace(atlases[0], color=total / np.where(weight > 0, weight, 1)[:, None], weight=weight)
 
 
 def _smooth(place: np.ndarray, side: np.ndarray, values: np.ndarray, weight: np.ndarray) -> np.ndarray:
-    """[n] gaussian means, two cells wide, of values [n] at places [n, 3] in cells, among those of one side."""
+    """[n] gaussian means (standard deviation of two cells) of values [n] at places [n, 3], in cells, within each side."""
     cell = place.astype(np.int64)
     shape = (6, *(cell.max(axis=0) + 2))
     index, size = np.ravel_multi_index((side, *cell.T), shape), int(np.prod(shape))
@@ -200,8 +203,10 @@ def _smooth(place: np.ndarray, side: np.ndarray, values: np.ndarray, weight: np.
 
 
 def _filled(atlas: Atlas, chart_slot: np.ndarray) -> Atlas:
-    """The atlas with the colour and the weight of the nearest texel that is seen where none is, if there is one beside it, of
-    the same slot and turn."""
+    """The atlas in which hidden texels have the colour and the weight of the nearest visible texel of the same slot.
+
+    A visible texel counts as near if it lies within _BESIDE texels and faces about the same way.
+    """
     chart = texel_charts(atlas)
     turn, slot = (_TURNED * atlas.chart_normal)[chart], 1e3 * chart_slot[chart]
     key = np.column_stack([texel_positions(atlas) / atlas.texel_size, turn, slot])

@@ -1,1 +1,4 @@
-"""The offline segmentation backend: drawn, what the painter drew as a segmenter would return it."""
+"""The offline segmentation backend.
+
+    drawn  what the painter drew, as a segmenter would return it
+"""

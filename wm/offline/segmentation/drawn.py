@@ -1,7 +1,7 @@
-"""The offline segmentation: what the offline image model drew, as a segmenter would return it.
+"""The offline segmentation: the objects that the offline image model drew, with the errors of a segmentation model.
 
-It knows every pixel's object; what it returns has ragged borders, takes some touching neighbours of one kind for one thing, and
-misses some of the small things, at the strengths of its Settings.
+It knows the object of every pixel. Its segments have ragged borders, some touching objects with the same label become one
+segment, and some small objects are missing; its Settings say how strong these errors are.
 """
 
 import dataclasses
@@ -17,14 +17,14 @@ from wm.synth.registry import DRAWN
 VERSION = "1"
 REQUIRES = (DRAWN,)
 _GRAIN = 3.0
-"""Pixels over which a border strays alike."""
+"""Distance, in pixels, over which the error of a border is correlated."""
 _SMALL = 2e-3
-"""Share of the image below which a thing is small."""
+"""Share of the image below which an object is small."""
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
 class Settings(BackendSettings):
-    """How wrong the segments are."""
+    """The errors of the segments."""
 
     backend: str = setting(__name__, "The offline segmentation.")
     ragged: float = number(1.0, 0, 100, "Distance by which borders stray.", unit="px")
@@ -39,10 +39,10 @@ class DrawnSegmentation:
     config: Settings
 
     def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
-        """The things of an image.
+        """The segments of an image.
 
         Raises:
-          ValueError: the image carries no object numbers: it is not the offline model's.
+          ValueError: the image has no object numbers, so that it does not come from the offline image model.
         """
         if result.drawn_object is None:
             raise ValueError(
@@ -62,12 +62,12 @@ class DrawnSegmentation:
 
 
 def make(config: Settings, context: SceneContext | None = None) -> DrawnSegmentation:
-    """The offline segmentation; it needs nothing of the scene."""
+    """The offline segmentation. It does not use the scene."""
     return DrawnSegmentation(config)
 
 
 def _joined(ids: np.ndarray, labels: tuple[str, ...], share: float, rng: np.random.Generator) -> np.ndarray:
-    """Object numbers with a share of the touching pairs of one label under one number."""
+    """Object numbers in which a share of the touching pairs with the same label have one number."""
     pairs = set()
     for a, b in ((ids[1:], ids[:-1]), (ids[:, 1:], ids[:, :-1])):
         border = (a != b) & (a >= 0) & (b >= 0)
@@ -80,7 +80,7 @@ def _joined(ids: np.ndarray, labels: tuple[str, ...], share: float, rng: np.rand
 
 
 def _ragged(mask: np.ndarray, amount: float, rng: np.random.Generator) -> np.ndarray:
-    """A mask whose border strays by about `amount` pixels."""
+    """The mask with its border displaced at random by about `amount` pixels."""
     if amount == 0:
         return mask
     rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))

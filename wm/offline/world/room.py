@@ -18,7 +18,6 @@ from wm.offline.world.light import (
     Probes,
     RoomCharts,
     Sources,
-    bake,
     build_facets,
     build_probes,
     ceiling_emitters,
@@ -29,6 +28,7 @@ from wm.offline.world.light import (
     room_charts,
     soften,
 )
+from wm.offline.world.light.bake import bake
 from wm.offline.world.light.facets import Facets
 from wm.offline.world.pieces import SPECULAR, Pieces, build_pieces, mean_albedo
 from wm.offline.world.pyramid import Pyramid, build_pyramid

@@ -1,7 +1,7 @@
 """The optimisation of one room's gaussians.
 
     fitting             fit: gaussians optimised toward views of one room
-    checks              what is wrong with the settings of a fit
+    checks              checks of the settings of a fit
     training            TrainingView: a posed image with the scaffold's depth and a mask
     cloud               initial_gaussians: the scaffold's surfaces, one gaussian per cell
     room_fit            RoomFit: the loop over steps

@@ -1,9 +1,9 @@
-"""What is wrong with the settings of a fit, said before it begins."""
+"""Checks of the settings of a fit, made before it begins."""
 
 from wm.bounds import check_settings
 from wm.schema import FitSettings
 
 
 def check_fit(settings: FitSettings) -> None:
-    """Raises ValueError naming the setting of a fit that is outside its bounds, or the choice that is unknown."""
+    """Raises ValueError, naming the setting, if a setting of a fit is outside its bounds or is not one of its options."""
     check_settings("fit", settings)

@@ -1,7 +1,7 @@
-"""What is wrong with the arguments of a render, said once and clearly: shapes and dtypes when traced, values on request.
+"""Checks of the arguments of a render: of shapes and dtypes always, of values on request.
 
-Shapes and dtypes are known while tracing, so checking them costs nothing in a compiled program. Values are looked at on the host
-where they are there, and inside jit by `jax.experimental.checkify`.
+Shapes and dtypes are known while tracing, so that checking them costs nothing in a compiled program. Values are checked on the
+host where they are concrete, and inside jit by `jax.experimental.checkify`.
 """
 
 from collections.abc import Callable
@@ -19,18 +19,18 @@ from wm.schema import RasterSettings
 from wm.types import Camera, Gaussians
 
 DEGREES = {1: 0, 4: 1, 9: 2, 16: 3}
-"""Degree of the spherical harmonics by their number."""
+"""Number of coefficients per channel -> degree of the spherical harmonics."""
 
 _SHAPES = {"means": ("n", 3), "quats": ("n", 4), "log_scales": ("n", 3), "opacity_logits": ("n",), "sh": ("n", "k", 3)}
 _CAMERA = {"T_cam_world": (4, 4), "focal": (2,), "principal": (2,)}
 
 
 def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> None:
-    """Raises where shapes, dtypes or constants cannot be rendered; looks at no value, so it runs while tracing.
+    """Raises if shapes, dtypes or settings cannot be rendered. It reads no values of arrays, so that it can run while tracing.
 
     Raises:
-        TypeError: a leaf is no array of real floating-point numbers.
-        ValueError: a shape, the image size or a constant is wrong.
+        TypeError: a leaf is not an array of real floating-point numbers.
+        ValueError: a shape, the image size or a setting is wrong.
     """
     check_gaussians(gaussians)
     for name, shape in _CAMERA.items():
@@ -41,7 +41,7 @@ def check_types(gaussians: Gaussians, camera: Camera, settings: RasterSettings) 
 
 
 def check_gaussians(gaussians: Gaussians, name: str = "gaussians") -> None:
-    """Raises TypeError or ValueError where a leaf of gaussians, which are called `name`, is no array of its shape."""
+    """Raises TypeError or ValueError if a leaf of the gaussians is not an array of its shape. Messages call them `name`."""
     for leaf, shape in _SHAPES.items():
         _check_leaf(f"{name}.{leaf}", getattr(gaussians, leaf), shape)
     rows = {leaf: getattr(gaussians, leaf).shape[0] for leaf in _SHAPES}
@@ -54,7 +54,7 @@ def check_gaussians(gaussians: Gaussians, name: str = "gaussians") -> None:
 
 
 def check_raster(settings: RasterSettings) -> None:
-    """Raises ValueError where a constant of the rasterizer is outside its bounds, or has no meaning on this machine."""
+    """Raises ValueError if a setting of the rasterizer is outside its bounds or cannot be used on this machine."""
     check_settings("settings", settings)
     if settings.alpha_min >= settings.alpha_max:
         raise ValueError(
@@ -70,7 +70,7 @@ def check_raster(settings: RasterSettings) -> None:
 
 
 def check_background(background: Any, camera: Camera) -> None:
-    """Raises TypeError or ValueError unless a background is one colour or one a pixel, in floating-point numbers."""
+    """Raises TypeError or ValueError unless a background is one colour, or one per pixel, in floating-point numbers."""
     image = (camera.height, camera.width, 3)
     _check_dtype("background", background)
     if background.shape not in ((3,), image):
@@ -78,7 +78,7 @@ def check_background(background: Any, camera: Camera) -> None:
 
 
 def check_values(gaussians: Gaussians, camera: Camera, background: Any = None) -> None:
-    """Raises where a number is not finite or a focal length not positive; inside jit it is a check of `checkify`.
+    """Raises if a number is not finite or a focal length is not positive. Inside jit this is a check of `checkify`.
 
     Raises:
         ValueError: naming the leaf and its first bad row. Inside jit: the error that `checkify.checkify` returns.
@@ -91,7 +91,7 @@ def check_values(gaussians: Gaussians, camera: Camera, background: Any = None) -
 
 
 def check_camera(camera: Camera) -> None:
-    """`check_values` of a camera, where its numbers are there to be looked at; a bad one would show as an empty image."""
+    """`check_values` of a camera whose numbers are concrete. Without this check, a bad camera renders an empty image."""
     if not any(isinstance(x, Tracer) for x in jax.tree.leaves(camera)):
         _require_camera(camera)
 

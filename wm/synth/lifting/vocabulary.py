@@ -1,7 +1,7 @@
 """What the labels of segments name, and how large such things usually are.
 
-Labels come from any segmenter, in any words. Two labels name things of one sort if `sort_of` gives the same for both. Which words
-of a label name the thing, and what such a thing rests on, says wm.geometry.placement.support.
+Labels come from any segmenter, in any words. Two labels name things of one sort if `sort_of` returns the same for both.
+wm.geometry.placement.support decides which words of a label name the thing, and what such a thing rests on.
 """
 
 import numpy as np

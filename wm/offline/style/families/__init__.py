@@ -1,4 +1,11 @@
-"""The style families: palette, materials, furniture shapes and light of each, and the words of a theme that select it."""
+"""The style families: palette, materials, furniture shapes and light of each, and the words of a theme that select it.
+
+    contemporary  scandinavian, minimalist, modern, industrial
+    historic      gothic, victorian, baroque, roman
+    regional      japanese, moroccan, coastal, rustic
+    retro         midcentury, art deco
+    imagined      clockwork, cyberpunk, surreal
+"""
 
 from wm.offline.style.families.contemporary import INDUSTRIAL, MINIMALIST, MODERN, SCANDINAVIAN
 from wm.offline.style.families.historic import BAROQUE, GOTHIC, ROMAN, VICTORIAN

@@ -1,7 +1,7 @@
 """How a room's structure is dressed: every planar surface as a sheet of texels, before light falls on it.
 
     texel_sheet  TexelSheet, and the layers that one is dressed with
-    wall         walls: finish, wainscot, skirting, cornice, casings
+    wall         finish, wainscot, skirting, cornice and casings of walls
     frieze       the ornamental band below a cornice
     level        floors and ceilings
     reveal       jambs, heads and thresholds
