@@ -43,6 +43,7 @@ def hydras(text: str) -> bool:
 @given(TEXTS)
 @example("${scene.name} \\${x} \\\\")
 @example("it's \\")
+@example("two\nlines\tof 'text'")
 def test_a_theme_after_its_flag_arrives_whatever_it_is(text):
     assert arrived(f"--theme={text}")["theme"] == text
 
@@ -88,6 +89,7 @@ def test_words_arrive_in_the_configuration(theme, rooms):
         ),
         (["gothic", "--plan", "(b), c's.json"], ["gothic", "plan.file=(b), c's.json"], ["gothic", r"plan.file='(b), c\'s.json'"]),
         (["gothic", "--output", "runs/${preset}, new"], ["gothic", "output=runs/${preset}, new"]),
+        (["gothic", "--output", "maison d'été #2=a"], ["gothic", "output=maison d'été #2=a"]),
     ],
 )  # fmt: skip
 def test_every_form_is_the_same_run(forms):
@@ -109,6 +111,7 @@ def test_every_form_is_the_same_run(forms):
         "plan.file=null",
         "output='runs/${preset}'",
         "output=runs/${preset}",
+        "output=choice(a,b)",
         "fit.steps=1,2",
         "+scene=gothic,scandinavian",
         "~plan.file",
@@ -116,7 +119,7 @@ def test_every_form_is_the_same_run(forms):
     ],
 )
 def test_forms_of_hydra_stay_as_they_are_in_a_sweep(argument):
-    assert translated(["-m", argument]) == ["-m", argument]
+    assert translated(["-m", argument]) == [argument, "-m"]
 
 
 def test_an_interpolation_in_words_stays_one():
@@ -130,15 +133,19 @@ def test_brackets_with_names_that_hydra_quotes():
 
 def test_the_flags_of_hydra_are_all_known_with_their_values():
     actions = [action for action in get_args_parser()._actions if action.option_strings]
-    wants = {flag: 0 if action.nargs == 0 else 1 for action in actions for flag in action.option_strings}
-    assert {flag: count for flag, count in wants.items() if flag not in OWN_ANSWERS} == HYDRA_FLAGS
+    wants = {
+        flag: None if action.nargs == 0 else tuple(action.choices or ()) for action in actions for flag in action.option_strings
+    }
+    assert {flag: values for flag, values in wants.items() if flag not in OWN_ANSWERS} == HYDRA_FLAGS
     assert not set(FLAGS) & {*wants, *OWN_ANSWERS}
 
 
-def test_values_of_hydras_flags_are_no_scenes():
-    given = ["--cfg", "job", "-cd", "mine", "--info", "gothic"]
-    assert translated(given) == given
-    assert translated(["--info", "seed=1"]) == ["--info", "seed=1"]
+@pytest.mark.parametrize("flags", [["--cfg", "job", "-cd", "mine"], ["--info", "searchpath"], ["--info"], ["-m", "-cd=mine"]])
+def test_flags_of_hydra_stand_anywhere_and_their_values_are_no_scenes(flags):
+    for arguments in ([*flags, "gothic", "--seed=1"], ["gothic", *flags, "seed=1"], ["gothic", "--seed", "1", *flags]):
+        made = translated(arguments)
+        assert made == ["+scene=gothic", "seed=1", *flags]
+        assert get_args_parser().parse_args(made).overrides == ["+scene=gothic", "seed=1"]
 
 
 @pytest.mark.parametrize(
@@ -148,6 +155,8 @@ def test_values_of_hydras_flags_are_no_scenes():
         (["--theme"], "--theme lacks its value: write --theme TEXT"),
         (["--theme", "--rooms", "a"], "--theme lacks its value"),
         (["--config-dir"], "--config-dir lacks its value"),
+        (["--cfg", "jobs"], "--cfg jobs: choose one of job, hydra, all"),
+        (["--info=everything"], "--info everything: choose one of all, config"),
         (["gothic", "draft"], "'draft': the scene is 'gothic' already; settings are KEY=VALUE"),
         (["--theme", "a", "snug", "cabin"], "text of several words is quoted"),
         (["a snug cabin"], "'a snug cabin': no name of a scene; a theme in words is --theme"),

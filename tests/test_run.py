@@ -257,6 +257,7 @@ THEMES = f"""
     [
         (["--theme=oak, brass's \\"], ["oak, brass's \\ | oak_brasss"]),
         (["scene.theme=oak, brass's"], ["oak, brass's | oak_brasss"]),
+        (["--theme=oak \\${seed}'", "seed=1"], ["oak \\${seed}' | oak_seed"]),
         (["scene.theme=choice(an oak, a cave)"], ["an oak | an_oak", "a cave | a_cave"]),
         (["scene.theme='an oak','a cave, dark'"], ["an oak | an_oak", "a cave, dark | a_cave_dark"]),
     ],

@@ -13,7 +13,8 @@ them has quoted them for the shell already:
   ${...} stays an interpolation.
 - `scene.rooms` is a list, with brackets or without. Its names are text between commas; a name that is one quoted string is read
   by Hydra. In a sweep [...],[...] and the functions above stay as they are.
-- `output` and `plan.file` are text where Hydra would take their characters for its own; a sweep leaves them to Hydra.
+- `output`, `plan.file` and other keys of files are text where Hydra cannot read them (`my plan (2).json`, `maison-d'été`), but
+  for null, quoted strings, the functions above and, in a sweep, values with commas between.
 
 After a flag everything is text; only `--output` and `--plan` keep ${...}, which names a folder for each run of a sweep. All other
 arguments are Hydra's. Standard library only.
@@ -36,7 +37,7 @@ _FUNCTION = r"(?:choice|shuffle|sort|tag)\(.*\)"
 _INTERPOLATION = r"\$\{[^${}]+(?:\$\{[^${}]+\}[^${}]*)*\}"
 _LISTS = r"\[.*\](?:\s*,\s*\[.*\])+"
 _ELEMENT = re.compile(rf"\s*(?:(?P<quoted>{_QUOTED})\s*(?=,|\Z)|(?P<text>[^,]*))(?:,|\Z)", re.DOTALL)
-_OVERRIDE = re.compile(r"(?P<key>\+{0,2}(?P<name>scene\.theme|scene\.rooms|output|plan\.file))=(?P<value>.*)", re.DOTALL)
+_OVERRIDE = re.compile(r"(?P<key>\+{0,2}(?P<name>scene\.theme|scene\.rooms|output|\w+\.file))=(?P<value>.*)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -59,44 +60,46 @@ FLAGS: Mapping[str, Flag] = {
     "--plan": Flag("plan.file", "FILE", "A floor plan of your own."),
 }
 
-HYDRA_FLAGS: Mapping[str, int] = {
-    **dict.fromkeys(("--hydra-help", "--resolve", "--run", "-r", "--multirun", "-m", "--shell-completion", "-sc"), 0),
-    **dict.fromkeys(("--cfg", "-c", "--package", "-p", "--config-path", "-cp", "--config-name", "-cn"), 1),
-    **dict.fromkeys(("--config-dir", "-cd", "--experimental-rerun", "--info", "-i"), 1),
+_SHOWN = ("all", "config", "defaults", "defaults-tree", "plugins", "searchpath")
+HYDRA_FLAGS: Mapping[str, tuple[str, ...] | None] = {
+    **dict.fromkeys(("--hydra-help", "--resolve", "--run", "-r", "--multirun", "-m", "--shell-completion", "-sc"), None),
+    **dict.fromkeys(("--package", "-p", "--config-path", "-cp", "--config-name", "-cn", "--config-dir", "-cd"), ()),
+    **dict.fromkeys(("--cfg", "-c"), ("job", "hydra", "all")),
+    **dict.fromkeys(("--info", "-i"), _SHOWN),
+    "--experimental-rerun": (),
 }
-"""Hydra's own flags, and how many values each has. `--info` may also stand alone."""
+"""Hydra's own flags, and the values of each: None where it has none, empty where any will do. `--info` may also stand alone."""
 
 OWN_ANSWERS = ("--help", "-h", "--version", "--completion")
 """Flags that are answered without a run (wm.help)."""
 
 
 def translated(arguments: Sequence[str]) -> list[str]:
-    """The arguments as Hydra reads them: overrides, and Hydra's own flags.
+    """The arguments as Hydra reads them: overrides, and after them Hydra's own flags, since its parser wants overrides in a row.
 
     Raises:
       ConfigError: a flag that is unknown or lacks its value, or a word that is no scene's name.
     """
     sweep = not {"-m", "--multirun"}.isdisjoint(arguments)
     scene = ""
-    made: list[str] = []
+    overrides: list[str] = []
+    flags: list[str] = []
     rest = list(arguments)
     while rest:
         argument = rest.pop(0)
         flag, equals, value = argument.partition("=")
         if flag in FLAGS:
-            made.append(_of_flag(flag, value if equals else _next_value(flag, rest)))
+            overrides.append(_of_flag(flag, value if equals else _next_value(flag, rest)))
         elif flag in HYDRA_FLAGS:
-            optional = flag in ("--info", "-i") and (not rest or "=" in rest[0] or rest[0].startswith("-"))
-            lone = equals or optional or not HYDRA_FLAGS[flag]
-            made += [argument] if lone else [argument, _next_value(flag, rest)]
+            flags += _of_hydras_flag(argument, rest)
         elif argument.startswith("-"):
             raise ConfigError(_unknown_flag(flag))
         elif equals or argument.startswith("~"):
-            made.append(_of_override(argument, sweep))
+            overrides.append(_of_override(argument, sweep))
         else:
-            made.append(_of_word(argument, scene))
+            overrides.append(_of_word(argument, scene))
             scene = argument
-    return made
+    return [*overrides, *flags]
 
 
 def scene_name(theme: str) -> str:
@@ -134,6 +137,18 @@ def _of_flag(flag: str, value: str) -> str:
     return f"{key}={literal(value) if flag in ('--theme', '--name') else value}"
 
 
+def _of_hydras_flag(argument: str, rest: list[str]) -> list[str]:
+    """A flag of Hydra's with the value that it takes from the rest."""
+    flag, equals, value = argument.partition("=")
+    values = HYDRA_FLAGS[flag]
+    if values is None or (flag in ("--info", "-i") and not equals and rest[:1] not in [[name] for name in values]):
+        return [argument]
+    value = value if equals else _next_value(flag, rest)
+    if values and value not in values:
+        raise ConfigError(f"{flag} {value}: choose one of {', '.join(values)}")
+    return [argument] if equals else [flag, value]
+
+
 def _next_value(flag: str, rest: list[str]) -> str:
     if not rest or rest[0].partition("=")[0] in (*FLAGS, *HYDRA_FLAGS, *OWN_ANSWERS):
         raise ConfigError(f"{flag} lacks its value: write {flag} {FLAGS[flag].value if flag in FLAGS else 'VALUE'}")
@@ -162,8 +177,9 @@ def _rooms(value: str, sweep: bool) -> str:
 
 
 def _path(value: str, sweep: bool) -> str:
-    text = re.search(r"""[][(){},'"]""", re.sub(_INTERPOLATION, "", value)) and not sweep
-    return _text(value) if text and not _is(value, _QUOTED) else value
+    readable = re.fullmatch(r"[\w/\\.+$%*@?|: -]*", re.sub(_INTERPOLATION, "", value), re.ASCII)
+    swept = sweep and "," in value
+    return value if readable or swept or _is(value, _QUOTED, _FUNCTION) else _text(value)
 
 
 def _elements(inside: str) -> Iterator[str]:

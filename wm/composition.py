@@ -20,7 +20,7 @@ from hydra.plugins.config_source import ConfigResult
 from omegaconf import DictConfig, OmegaConf, open_dict
 from omegaconf.errors import InterpolationToMissingValueError, MissingMandatoryValue, OmegaConfBaseException
 
-from wm.command_line import scene_name, translated
+from wm.command_line import quoted, scene_name, translated
 from wm.errors import InputError
 from wm.schema import RunConfig
 from wm.validate import ConfigError, validate_config
@@ -180,7 +180,7 @@ def _guess(word: str, known: Sequence[str], prefix: str = "") -> str:
 
 def _unreadable(argument: str, reason: str) -> str:
     key, equals, value = argument.partition("=")
-    quoting = f"; a text is quoted, within what the shell quotes: {key}='{value}'" if equals and "'" not in value else ""
+    quoting = f"; a text is quoted, within what the shell quotes: {key}={quoted(value)}" if equals else ""
     return f"cannot read the argument {argument!r}: {reason}{quoting}"
 
 
