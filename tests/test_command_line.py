@@ -163,6 +163,7 @@ def test_flags_of_hydra_stand_anywhere_and_their_values_are_no_scenes(flags):
         (["seed", "2"], "seed: write seed=VALUE; `wm --help seed`"),
         (["fit.steps", "2"], "fit.steps: write fit.steps=VALUE"),
         (["-x"], "-x: no such flag"),
+        (["gothic", "-m", "--cfg=job"], "-m and --cfg=job ask for different things"),
     ],
 )
 def test_what_is_wrong_is_said_in_a_line_with_what_is_right(arguments, said):

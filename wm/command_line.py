@@ -70,6 +70,7 @@ HYDRA_FLAGS: Mapping[str, tuple[str, ...] | None] = {
 }
 """Hydra's own flags, and the values of each: None where it has none, empty where any will do. `--info` may also stand alone."""
 
+_MODES = ("--run", "-r", "--multirun", "-m", "--cfg", "-c", "--info", "-i", "--shell-completion", "-sc")
 OWN_ANSWERS = ("--help", "-h", "--version", "--completion")
 """Flags that are answered without a run (wm.help)."""
 
@@ -99,6 +100,8 @@ def translated(arguments: Sequence[str]) -> list[str]:
         else:
             overrides.append(_of_word(argument, scene))
             scene = argument
+    if len(modes := [flag for flag in flags if flag.partition("=")[0] in _MODES]) > 1:
+        raise ConfigError(f"{' and '.join(modes)} ask for different things; one of them at a time")
     return [*overrides, *flags]
 
 
