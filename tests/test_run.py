@@ -158,6 +158,36 @@ def test_a_run_that_fails_says_one_line(door, error, code, said):
     assert err.startswith("wm: ") and err.count("\n") == 1
 
 
+@pytest.mark.parametrize("argument", ["gothik", "+scene=gothik"])
+def test_a_wrong_name_is_met_with_the_right_one(door, argument):
+    code, err, calls = door(argument)
+    assert (code, calls) == (2, [])
+    assert err.startswith("wm: scene=gothik: no such scene; did you mean gothic? choose one of") and err.count("\n") == 1
+
+
+def test_plain_words_are_the_same_run_as_overrides(door, tmp_path):
+    forms = [("gothic", "--seed", "3", "--preset=draft"), ("+scene=gothic", "seed=3", "preset=draft")]
+    (first, where, _), (second, there, _) = (door(*form)[2][0] for form in forms)
+    assert first == second and where == there == tmp_path / "outputs/gothic/full/3"
+
+
+def test_a_scene_without_a_name_lies_under_the_words_of_its_theme(door, tmp_path):
+    _, _, calls = door("--theme", "a children's library, bright", "--rooms", "hall, kitchen")
+    assert calls[0][1] == tmp_path / "outputs/a_childrens_library_bright/full/0"
+    assert calls[0][0].scene.theme == "a children's library, bright"
+
+
+def test_an_answer_to_a_reader_that_has_seen_enough_is_no_error(tmp_path):
+    reading, writing = os.pipe()
+    os.close(reading)
+    env = os.environ | {"PYTHONPATH": str(Path(run.__file__).parents[1])}
+    done = subprocess.run(
+        [sys.executable, "-m", "wm.run", "--help"], stdout=writing, stderr=subprocess.PIPE, cwd=tmp_path, env=env, check=False
+    )
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
 def test_debug_shows_the_traceback(door):
     with pytest.raises(RuntimeError, match="ill"):
         door("+scene=gothic", "debug=true", action=raising(RuntimeError("ill")))
@@ -189,8 +219,8 @@ def test_no_scene_on_the_command_line_lists_the_scenes(tmp_path):
 def test_help_lists_groups_and_examples(tmp_path):
     done = command("--help", cwd=tmp_path)
     assert done.returncode == 0
-    assert "python -m wm.run +scene=gothic" in done.stdout
-    assert "scene: beach_house, clockwork_garden, gothic, roman_estate, scandinavian" in done.stdout
+    assert "wm gothic" in done.stdout and 'wm --theme "' in done.stdout
+    assert all(f"\n  {name} " in done.stdout for group in ("scene", "preset", "variant", "image") for name in run.options(group))
 
 
 def test_a_sweep_runs_every_variant_although_one_fails(tmp_path):
@@ -215,6 +245,28 @@ def test_runs_of_a_sweep_lie_where_the_output_says_for_each(tmp_path, group, nam
     done = command("-m", "+scene=gothic", f"{group}={','.join(two)}", f"output=runs/{named}", cwd=tmp_path, action=WRITES)
     assert done.returncode == 0
     assert tuple(sorted(path.name for path in (tmp_path / "runs").iterdir())) == two
+
+
+THEMES = f"""
+    with open("themes", "a") as file: print(config.scene.theme, config.scene.name, sep=" | ", file=file)
+    {WRITES}
+"""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "themes"),
+    [
+        (["--theme=oak, brass's \\"], ["oak, brass's \\ | oak_brasss"]),
+        (["scene.theme=oak, brass's"], ["oak, brass's | oak_brasss"]),
+        (["--theme=oak \\${seed}'", "seed=1"], ["oak \\${seed}' | oak_seed"]),
+        (["scene.theme=choice(an oak, a cave)"], ["an oak | an_oak", "a cave | a_cave"]),
+        (["scene.theme='an oak','a cave, dark'"], ["an oak | an_oak", "a cave, dark | a_cave_dark"]),
+    ],
+)
+def test_a_comma_in_a_theme_is_text_in_a_sweep_too_but_in_hydras_choices(tmp_path, arguments, themes):
+    done = command("-m", "--rooms", "hall", *arguments, cwd=tmp_path, action=THEMES)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "themes").read_text().splitlines() == themes
 
 
 def test_a_sweep_ends_with_a_table_of_its_runs(tmp_path):

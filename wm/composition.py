@@ -20,6 +20,7 @@ from hydra.plugins.config_source import ConfigResult
 from omegaconf import DictConfig, OmegaConf, open_dict
 from omegaconf.errors import InterpolationToMissingValueError, MissingMandatoryValue, OmegaConfBaseException
 
+from wm.command_line import quoted, scene_name, translated
 from wm.errors import InputError
 from wm.schema import RunConfig
 from wm.validate import ConfigError, validate_config
@@ -49,6 +50,7 @@ class BackendSource(FileConfigSource):
 
 def register() -> None:
     """Tells Hydra of the schema and of files that select backends. Done once, when this module is imported."""
+    OmegaConf.register_new_resolver("wm.scene_name", scene_name, replace=True)
     Plugins.instance()  # registers Hydra's own sources first
     SourcesRegistry.instance().types["file"] = BackendSource
     ConfigStore.instance().store(name="run_config", node=_schema())
@@ -63,7 +65,7 @@ def freeze(composed: Any) -> RunConfig:
     """
     from wm.synth.registry import mismatches, misplaced  # here: `--help` needs none of it
 
-    if OmegaConf.is_missing(composed.scene, "name"):
+    if OmegaConf.is_missing(composed.scene, "theme"):
         raise ConfigError(_no_scene())
     for key in _unknown_keys(composed, ""):
         raise ConfigError(_unknown_key(key, composed))
@@ -76,9 +78,10 @@ def freeze(composed: Any) -> RunConfig:
 
 
 def load_config(overrides: Sequence[str] = (), *, config_dir: Path | str | None = None) -> RunConfig:
-    """What `python -m wm.run` would run with these arguments, e.g. `load_config(["+scene=gothic", "seed=3"])`.
+    """What `wm` would run with these arguments, e.g. `load_config(["gothic", "seed=3"])` or `load_config(["+scene=gothic"])`.
 
     Args:
+      overrides: what stands after `wm`; wm.command_line says what may be typed.
       config_dir: a folder with further YAML files, as `--config-dir` names one.
 
     Raises:
@@ -87,7 +90,7 @@ def load_config(overrides: Sequence[str] = (), *, config_dir: Path | str | None 
     where = [] if config_dir is None else [f"hydra.searchpath=['file://{Path(config_dir).resolve()}']"]
     with hydra.initialize_config_dir(str(CONF), version_base="1.3"):
         try:
-            composed = hydra.compose("config", [*where, *overrides])
+            composed = hydra.compose("config", [*where, *translated(overrides)])
         except (HydraException, OmegaConfBaseException) as error:
             raise ConfigError(explain(error)) from error
     return freeze(composed)
@@ -99,13 +102,14 @@ def explain(error: BaseException) -> str:
     key = getattr(cause, "full_key", None)
     if isinstance(error, MissingConfigException) and error.missing_cfg_file:
         group, _, option = str(error.missing_cfg_file).rpartition("/")
-        return f"{group}={option}: no such {group}; choose one of {', '.join(error.options or ())}"
+        known = error.options or ()
+        return f"{group}={option}: no such {group}; {_guess(option, known)}choose one of {', '.join(known)}"
     if isinstance(error, OverrideParseException):
-        return f"cannot read the argument {error.override!r}: {one_line(str(error).splitlines()[0])}"
+        return _unreadable(error.override, one_line(str(error).splitlines()[0]))
     if isinstance(error, InterpolationToMissingValueError | MissingMandatoryValue):
         return _no_scene()
     if isinstance(error, HydraException) and str(error).startswith("Could not override 'scene'"):
-        return f"a scene is added, not replaced: write +scene=NAME, one of {', '.join(options('scene'))}"
+        return f"a scene is added, not replaced: type wm NAME or write +scene=NAME, one of {', '.join(options('scene'))}"
     if key is not None and str(cause).startswith(f"Key '{getattr(cause, 'key', None)}' not in"):
         return _unknown(str(key), getattr(cause, "object_type", None))
     if key is not None:
@@ -164,18 +168,33 @@ def _unknown(key: str, record: Any) -> str:
     """What to say of a key that its record does not have."""
     prefix, _, name = key.rpartition(".")
     names = [field.name for field in fields(record)] if is_dataclass(record) else []
-    near = difflib.get_close_matches(name, names, n=1)
-    guess = f"did you mean {prefix}{'.' * bool(prefix)}{near[0]}? " if near else ""
+    guess = _guess(name, names, f"{prefix}{'.' * bool(prefix)}")
     return f"{key}: no such key; {guess}{prefix or 'the configuration'} has {', '.join(names) or 'no keys of its own'}"
 
 
+def _guess(word: str, known: Sequence[str], prefix: str = "") -> str:
+    """A question for a word that is close to a known one."""
+    near = difflib.get_close_matches(word, known, n=1)
+    return f"did you mean {prefix}{near[0]}? " if near else ""
+
+
+def _unreadable(argument: str, reason: str) -> str:
+    key, equals, value = argument.partition("=")
+    quoting = f"; a text is quoted, within what the shell quotes: {key}={quoted(value)}" if equals else ""
+    return f"cannot read the argument {argument!r}: {reason}{quoting}"
+
+
 def _no_scene() -> str:
-    return f"no scene: add +scene=NAME, one of {', '.join(options('scene'))}; or give scene.name, scene.theme and scene.rooms"
+    return (
+        f"no scene: type wm NAME or add +scene=NAME, one of {', '.join(options('scene'))}; or say what it should be: "
+        'wm --theme "a snug cabin" --rooms "hall, kitchen, bedroom"'
+    )
 
 
 def _schema() -> Any:
     schema = OmegaConf.structured(RunConfig)
-    schema.scene.name = "???"  # there is no default scene: a run says what it wants
+    schema.scene.theme = "???"  # there is no default scene: a run says what it wants
+    schema.scene.name = "${wm.scene_name:${scene.theme}}"
     return schema
 
 

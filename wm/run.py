@@ -1,10 +1,12 @@
 """The command line: compose conf/ (wm.composition), run the pipeline, and say what went wrong in one line.
 
-    python -m wm.run +scene=gothic
-    python -m wm.run -m +scene=gothic variant=full,depth_only
+    wm gothic
+    wm --theme "a children's library, bright" --rooms "hall, kitchen, bedroom"
+    wm -m gothic variant=full,depth_only
 
-Errors are one line on stderr (tracebacks with debug=true) and an exit code: 2 for input that cannot be run, 1 for a run that
-failed, 130 after Ctrl-C.
+`python -m wm.run` is the same as `wm`; wm.command_line says what may be typed, wm.help what --help answers. Errors are one line
+on stderr (tracebacks with debug=true) and an exit code: 2 for input that cannot be run, 1 for a run that failed, 130 after
+Ctrl-C.
 """
 
 import contextlib
@@ -24,11 +26,12 @@ from hydra.types import RunMode
 from omegaconf import OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from wm import composition
+from wm import command_line, composition
 from wm.composition import CONF, freeze, one_line
 from wm.composition import load_config as load_config
 from wm.composition import options as options
 from wm.errors import InputError
+from wm.help import answer, asks_for_help
 from wm.schema import RunConfig
 from wm.validate import ConfigError
 
@@ -47,6 +50,10 @@ def main() -> None:
     logging.getLogger("jax").setLevel(logging.WARNING)  # Hydra shows what is told, and JAX tells of every accelerator it lacks
     debug = "debug=true" in (argument.lower() for argument in sys.argv)
     try:
+        if asks_for_help(sys.argv[1:]):
+            _print_answer()
+            return
+        sys.argv[1:] = command_line.translated(sys.argv[1:])
         _run_all()
     except KeyboardInterrupt:
         _say("interrupted; the same command resumes")
@@ -59,6 +66,14 @@ def main() -> None:
         sys.exit(_exit_code(error))
 
 
+def _print_answer() -> None:
+    """What --help, --version or --completion ask for. A reader that has seen enough, such as `head`, is no error."""
+    try:
+        print(answer(sys.argv[1:], CONF), flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python would complain at exit
+
+
 def _leave(code: int) -> None:
     """Ends the process now. Threads in the middle of a bake or a compilation are not waited for: every artifact is whole."""
     sys.stdout.flush()
@@ -67,7 +82,9 @@ def _leave(code: int) -> None:
 
 def explain(error: BaseException) -> str:
     """One line that says what is wrong, in the configuration or with the run."""
-    return _explain_os_error(error) if isinstance(error, OSError) else composition.explain(error)
+    if isinstance(error, OSError) and not isinstance(error, HydraException):  # a missing YAML is both
+        return _explain_os_error(error)
+    return composition.explain(error)
 
 
 def _run_all() -> None:

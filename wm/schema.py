@@ -19,7 +19,7 @@ BESIDE: dict[str, Any] = {"identity": False}
 class SceneConfig:
     """What is wanted, in words: conf/scene/*.yaml."""
 
-    name: str = setting("unnamed", "Name of the scene, and of its run folder.")
+    name: str = setting("unnamed", "Name of the scene, and of its run folder; by default the words of its theme.")
     theme: str = setting("", "What the scene should be, in words.")
     rooms: list[str] = field(
         default_factory=list, metadata={"help": "The room programme: hall, library, kitchen, bedroom, bathroom ..."}

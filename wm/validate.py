@@ -43,7 +43,7 @@ def _scene_problems(config: RunConfig) -> Iterator[str]:
     if not scene.theme.strip():
         yield "scene.theme='': say in words what the scene should be"
     if not scene.rooms and config.plan.file is None:
-        yield "scene.rooms=[]: name at least one room, or give a plan.file"
+        yield 'scene.rooms=[]: name at least one room (--rooms "hall, kitchen"), or give a plan.file'
     for room in scene.rooms:
         if not room.strip() or not room.isprintable() or len(room) > 200:
             yield f"scene.rooms has {room!r}: a room's name has 1 to 200 printable characters"
