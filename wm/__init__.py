@@ -4,6 +4,10 @@
 Importing `wm` itself loads none of its modules. Each imports only those below it (docs/architecture.md):
 
     run           the command line
+    completion    words that TAB completes
+    help          what --help prints
+    command_line  plain words translated into overrides
+    keys          every key that can be set, and what it means
     composition   the YAML of conf/ and overrides composed into one checked RunConfig
     pipeline      run: the stages of a run in order
     stages        one stage a module, each with its entry in the run folder
