@@ -12,6 +12,7 @@ Smoothing in time moves the walker along the route and never off it.
 
 import dataclasses
 import itertools
+from typing import Any
 
 import numpy as np
 import scipy.ndimage
@@ -65,9 +66,9 @@ class _Floor:
     graph: scipy.sparse.csr_matrix  # [n, n] distances between neighbouring cells, longer near walls and objects
     radius: float
 
-    def clearance(self, shapes: np.ndarray) -> np.ndarray:
-        """Metres from each geometry within the area to the nearest wall or object."""
-        return self.radius + shapely.distance(self.area.boundary, shapes)
+    def clearance(self, shapes: Any) -> np.ndarray:
+        """Metres from each shapely geometry of an array, within the area, to the nearest wall or object."""
+        return self.radius + np.asarray(shapely.distance(self.area.boundary, shapes))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -171,7 +172,7 @@ def _grid(plan: FloorPlan, area: BaseGeometry, radius: float) -> _Floor:
     number[1:-1, 1:-1][inside] = np.arange(inside.sum())
     here = np.argwhere(number >= 0)
     cells = low + _CELL * (here[:, ::-1] - 0.5)
-    clear = radius + shapely.distance(area.boundary, shapely.points(cells))
+    clear = radius + np.asarray(shapely.distance(area.boundary, shapely.points(cells)))
     pairs = []
     for step in ((0, 1), (1, 0), (1, 1), (1, -1)):
         other = number[here[:, 0] + step[0], here[:, 1] + step[1]]
