@@ -196,7 +196,7 @@ class EvaluateConfig:
 class ReportConfig:
     enabled: bool = setting(True, "Write the report page.")
     video: bool = setting(True, "Write the fly-through.")
-    fps: int = number(10, 1, 240, "Frames of the fly-through a second.", unit="1/s")
+    fps: int = number(24, 1, 240, "Frames of the fly-through a second.", unit="1/s")
     walking_speed: float = number(2.4, 0.05, 50, "Speed along the fly-through.", unit="m/s")
 
 

@@ -9,14 +9,15 @@ from scipy.spatial import KDTree
 from tests.test_pipeline import SMALL
 from wm.artifacts import open_run_folder
 from wm.geometry import cast, unproject_depth
+from wm.geometry.cameras.exposed_surface import room_surface
 from wm.meter import StageMeter
 from wm.run import load_config
 from wm.schema import FitSettings
-from wm.splat.optimization.cloud import SH_C0, initial_gaussians
+from wm.splat.optimization.cloud import SH_C0, initial_gaussians, surface_cloud
 from wm.stages.reconstruction import training_view
 from wm.stages.run_context import RunContext
 from wm.stages.scene import build_scene
-from wm.stages.starting import starting_gaussians
+from wm.stages.starting import _of_the_same_surface, _surface_numbers, starting_gaussians
 
 SETTINGS = FitSettings(spacing=0.1, detail_spacing=0.05)
 
@@ -80,3 +81,21 @@ def test_added_gaussians_come_last_in_the_colours_of_onlookers_or_of_what_is_nea
     told = np.abs(colors - [1.0, 0.0, 0.0]).max(axis=1) < 1e-5
     assert told[n:].any() and not told[:n].any()
     assert seen.sh.tobytes() == again.sh.tobytes() and seen.means.tobytes() == again.means.tobytes()
+
+
+def test_added_gaussians_take_the_colour_of_their_own_object_and_material(scene):
+    """Views paint each material of each object in a colour of its own: what no view shows has none but those."""
+    number = _surface_numbers(scene)
+    palette = np.random.default_rng(0).integers(0, 256, (int(number.max()) + 1, 3), dtype=np.uint8)
+    views = []
+    for view in [view for view in scene.views if view.room == 0]:
+        gbuffer = cast(scene.rays, view.camera)
+        rgb = np.where(gbuffer.hit[..., None], palette[number[gbuffer.face]], np.uint8(0))
+        views.append(training_view(scene, view, rgb, gbuffer.hit, gbuffer))
+    cloud = surface_cloud(views, SETTINGS.spacing, SETTINGS.detail_spacing)
+    surface = room_surface(scene.mesh, 0, spacing=SETTINGS.spacing, detail_spacing=SETTINGS.detail_spacing)
+    colors = _of_the_same_surface(scene, surface, cloud, surface)
+    known = ~np.isnan(colors[:, 0])
+    off = np.abs(colors[known] - palette[number[surface.face[known]]] / 255).max(axis=1)
+    assert known.mean() > 0.9
+    assert np.median(off) < 0.05 and (off < 0.25).mean() > 0.85  # cells at edges average two materials

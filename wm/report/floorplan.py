@@ -1,13 +1,18 @@
-"""The floor plan as an inline SVG: walls, doors, windows, furniture, cameras."""
+"""The floor plan as an inline SVG: walls, doors, windows, furniture with its names, cameras.
+
+What stands on the floor is labelled, large things first, where the label overlaps no other; every thing has its name as a title.
+"""
 
 import dataclasses
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
+import shapely
 from jaxtyping import Float
 from markupsafe import Markup
 
 from wm.geometry import FloorPlan, interior_polygon, portals
+from wm.report.labels import LETTER, LINE, Box, Label, place_label
 from wm.report.templating import fill
 from wm.types import SceneObject, View
 
@@ -16,6 +21,11 @@ MARGIN = 0.8
 """Metres around the plan."""
 CAMERA_LENGTH = 0.35
 """Metres of the line that shows where a camera looks."""
+
+ROOM_TEXT, THING_TEXT = 13.0, 9.0
+"""Sizes of the names of rooms and of things, pixels."""
+SPOTS = 0.25
+"""Metres between places tried for the name of a room."""
 
 CAMERA_COLOURS = {
     "bootstrap": "#d1495b",
@@ -54,26 +64,71 @@ def draw_floorplan(plan: FloorPlan, objects: Sequence[SceneObject], views: Seque
     low, high = corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN
     width, height = (high - low) * PIXELS_PER_METRE
     sheet = _Sheet(low=low, height=height)
+    rooms = [_room(sheet, plan, objects, index) for index in range(len(plan.rooms))]
     return fill(
         "floorplan.svg",
         width=f"{width:.0f}",
         height=f"{height:.0f}",
-        rooms=[_room(sheet, plan, index) for index in range(len(plan.rooms))],
+        rooms=rooms,
         openings=[{"kind": portal.kind, "line": sheet.line(portal.ends)} for portal in portals(plan)],
         things=[{"support": x.support, "label": x.label, "outline": sheet.outline(_footprint(x))} for x in objects],
+        labels=[_text(label, THING_TEXT) for label in _labels(sheet, objects, rooms)],
         cameras=[_camera(sheet, view) for view in views],
     )
 
 
-def _room(sheet: _Sheet, plan: FloorPlan, index: int) -> dict:
+def _room(sheet: _Sheet, plan: FloorPlan, objects: Sequence[SceneObject], index: int) -> dict:
     room, interior = plan.rooms[index], interior_polygon(plan, index)
+    area = f"{interior.area:.1f} m²"
+    (west, south), (east, north) = (map(float, sheet.at(corner)) for corner in np.array(interior.bounds).reshape(2, 2))
+    width = LETTER * ROOM_TEXT * max(len(room.name), len(area))
+    x, y = (float(v) for v in sheet.at(_clear_spot(interior, objects, index, width, 2.4 * ROOM_TEXT)))
     return {
         "name": room.name,
-        "area": f"{interior.area:.1f}",
+        "area": area,
         "outline": sheet.outline(room.polygon),
         "interior": sheet.outline(np.asarray(interior.exterior.coords)[:-1]),
-        "middle": sheet.at(interior.representative_point().coords[0]),
+        "middle": (f"{x:.1f}", f"{y:.1f}"),
+        "bounds": Box(west, north, east, south),
+        "box": Box(x - width / 2, y - 1.2 * ROOM_TEXT, x + width / 2, y + 1.2 * ROOM_TEXT),
     }
+
+
+def _clear_spot(
+    interior: shapely.Polygon, objects: Sequence[SceneObject], room: int, width: float, height: float
+) -> Float[np.ndarray, "2"]:
+    """Where a text of this size, pixels, hides least furniture of a room; near its middle where several places are as good."""
+    standing = [shapely.Polygon(_footprint(x)) for x in objects if x.room == room and x.support == "floor"]
+    furniture, middle = shapely.union_all(standing), np.asarray(interior.representative_point().coords[0])
+    low, high = np.array(interior.bounds).reshape(2, 2)
+    x, y = (grid.ravel() for grid in np.meshgrid(*(np.arange(low[k], high[k], SPOTS) for k in (0, 1))))
+    places = np.concatenate([middle[None], np.column_stack([x, y])])
+    w, h = width / 2 / PIXELS_PER_METRE, height / 2 / PIXELS_PER_METRE
+    boxes = shapely.box(places[:, 0] - w, places[:, 1] - h, places[:, 0] + w, places[:, 1] + h)
+    hidden = shapely.area(shapely.intersection(boxes, furniture)) + 2 * shapely.area(shapely.difference(boxes, interior))
+    away = np.linalg.norm(places - middle, axis=1)
+    return places[np.argmin(hidden + 1e-3 * away)]
+
+
+def _labels(sheet: _Sheet, objects: Sequence[SceneObject], rooms: Sequence[dict]) -> Iterator[Label]:
+    """The names of what stands on the floor, within the outlines of their rooms, the largest first."""
+    taken = [room["box"] for room in rooms]
+    standing = [(_footprint(thing), thing) for thing in objects if thing.support == "floor"]
+    for corners, thing in sorted(standing, key=lambda pair: -shapely.Polygon(pair[0]).area):
+        x, y = (float(v) for v in sheet.at(corners.mean(axis=0)))
+        wide, tall = (np.ptp(corners, axis=0) * PIXELS_PER_METRE / 2).tolist()
+        places = [(x, y), (x, y - tall / 2), (x, y + tall / 2), (x - wide / 2, y), (x + wide / 2, y)]
+        frame, turned = rooms[thing.room]["bounds"], bool(tall > 1.5 * wide)
+        label = place_label(thing.label, places, size=THING_TEXT, taken=taken, sheet=frame, turned=turned)
+        if label is not None:
+            taken.append(label.box)
+            yield label
+
+
+def _text(label: Label, size: float) -> dict:
+    first = -LINE * size * (len(label.lines) - 1) / 2 + 0.35 * size  # from the middle down to the first base line
+    lines = [{"text": line, "y": f"{first + k * LINE * size:.1f}"} for k, line in enumerate(label.lines)]
+    return {"place": f"translate({label.x:.1f} {label.y:.1f}){' rotate(-90)' if label.turned else ''}", "lines": lines}
 
 
 def _camera(sheet: _Sheet, view: View) -> dict:

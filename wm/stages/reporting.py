@@ -66,7 +66,7 @@ def _video(run: RunContext, scene: Scene, result: ReconstructedScene) -> bytes:
     config = run.config
     key = run.key("video", result.key, config.report)
     if not run.folder.has("video", key):
-        cameras = walkthrough(scene.plan, scene.mesh, config.cameras, fps=config.report.fps, speed=config.report.walking_speed)
+        cameras = walkthrough(scene.plan, scene.rays, config.cameras, fps=config.report.fps, speed=config.report.walking_speed)
         views = [View(camera=camera, room=-1, kind="walk", name=f"walk{k}") for k, camera in enumerate(cameras)]
 
         def frames() -> Iterator[np.ndarray]:

@@ -2,13 +2,15 @@
 
 Most lie on the surface that the room's own views show. Exposed surface that these views miss is covered as well
 (wm.geometry.cameras.exposed_surface), in colours from the views of other rooms that see it through the doors, or else from the
-nearest covered surface. No view of the room trains these gaussians, so they keep their colours.
+nearest covered surface of the same object and material: the side of a fireplace is as its front and not as the soot behind it.
+No view of the room trains these gaussians, so they keep their colours.
 """
 
 from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 from jaxtyping import Float
+from scipy.spatial import KDTree
 
 from wm.geometry import visible_rooms
 from wm.geometry.cameras.exposed_surface import exposed, room_eyes, room_surface
@@ -18,7 +20,10 @@ from wm.schema import CameraSettings, FitSettings
 from wm.splat.optimization.cloud import Cloud, extended, initial_gaussians, one_a_cell, vacant
 from wm.splat.optimization.training import TrainingView
 from wm.stages.scene import Scene
-from wm.types import OUTSIDE, Gaussians, View
+from wm.types import OUTSIDE, Gaussians, SurfaceKind, View
+
+LOOKALIKES, FACING = 4, 0.25
+"""An added gaussian has the mean colour of so many of its surface, the nearest; opposite normals count as twice FACING metres."""
 
 Picture = Callable[[View], tuple[np.ndarray, np.ndarray]]
 """Returns the image [h, w, 3] uint8 of a view and its usable pixels [h, w] bool."""
@@ -44,18 +49,22 @@ def starting_gaussians(
     """
 
     def complete(cloud: Cloud) -> Cloud:
-        bare = _bare(scene, room, cloud, cameras, settings)
+        surface = room_surface(scene.mesh, room, spacing=settings.spacing, detail_spacing=settings.detail_spacing)
+        bare = _bare(scene, room, surface, cloud, cameras, settings)
         colors = np.full((len(bare.face), 3), np.nan) if picture is None else _shown(scene, room, bare, picture)
+        colors = np.where(np.isnan(colors), _of_the_same_surface(scene, surface, cloud, bare), colors)
         spacings = _spacings(scene, bare, settings)
         return extended(cloud, Cloud(points=bare.position, normals=bare.normal, colors=colors, spacings=spacings))
 
     return initial_gaussians(views, settings=settings, rng=rng, complete=complete)
 
 
-def _bare(scene: Scene, room: int, cloud: Cloud, cameras: CameraSettings, settings: FitSettings) -> SurfacePoints:
+def _bare(
+    scene: Scene, room: int, surface: SurfacePoints, cloud: Cloud, cameras: CameraSettings, settings: FitSettings
+) -> SurfacePoints:
     """Exposed points of the room's surface: one in every cell that the cloud leaves empty."""
-    points = room_surface(scene.mesh, room, spacing=settings.spacing, detail_spacing=settings.detail_spacing)
-    points = some_points(points, vacant(cloud, points.position, points.normal, _spacings(scene, points, settings)))
+    spacings = _spacings(scene, surface, settings)
+    points = some_points(surface, vacant(cloud, surface.position, surface.normal, spacings))
     # Exposed points are selected before cells are, since a cell may also contain a layer that another one hides.
     points = some_points(points, exposed(scene.rays, points, room_eyes(scene.plan, scene.rays, room, cameras)))
     return some_points(points, one_a_cell(points.position, points.normal, _spacings(scene, points, settings)))
@@ -63,6 +72,36 @@ def _bare(scene: Scene, room: int, cloud: Cloud, cameras: CameraSettings, settin
 
 def _spacings(scene: Scene, points: SurfacePoints, settings: FitSettings) -> Float[np.ndarray, "p"]:
     return np.where(scene.mesh.face_object[points.face] != OUTSIDE, settings.detail_spacing, settings.spacing)
+
+
+def _of_the_same_surface(scene: Scene, surface: SurfacePoints, cloud: Cloud, bare: SurfacePoints) -> Float[np.ndarray, "p 3"]:
+    """The mean colour of the points of the cloud that are nearest to each on its own object and material, facing much the same
+    way; NaN where the cloud shows nothing of these."""
+    colors = np.full((len(bare.face), 3), np.nan)
+    if not len(cloud.points) or not len(bare.face):
+        return colors
+    number = _surface_numbers(scene)
+    _, nearest = KDTree(_places(surface.position, surface.normal)).query(_places(cloud.points, cloud.normals))
+    known, wanted = number[surface.face[nearest]], number[bare.face]
+    for one in np.intersect1d(known, wanted):
+        there, here = np.flatnonzero(known == one), np.flatnonzero(wanted == one)
+        tree = KDTree(_places(cloud.points[there], cloud.normals[there]))
+        _, found = tree.query(_places(bare.position[here], bare.normal[here]), k=min(LOOKALIKES, len(there)))
+        colors[here] = cloud.colors[there[np.reshape(found, (len(here), -1))]].mean(axis=1)
+    return colors
+
+
+def _places(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 6"]:
+    return np.concatenate([points, FACING * normals], axis=1)
+
+
+def _surface_numbers(scene: Scene) -> np.ndarray:
+    """[f] a number for each kind of structure, and for each material of each object."""
+    mesh = scene.mesh
+    slot = np.zeros(len(mesh.faces), np.int64)
+    slot[mesh.face_object != OUTSIDE] = np.concatenate([np.zeros(0, np.int64), *(thing.face_slot for thing in scene.objects)])
+    slots = 1 + int(slot.max(initial=0))
+    return np.where(mesh.face_object == OUTSIDE, mesh.face_kind, len(SurfaceKind) + mesh.face_object * slots + slot)
 
 
 def _shown(scene: Scene, room: int, points: SurfacePoints, picture: Picture) -> Float[np.ndarray, "p 3"]:

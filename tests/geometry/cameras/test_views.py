@@ -1,4 +1,4 @@
-"""Laws of view planning: free air, the own room, numbers, names, what the views see; held-out views and the walk besides."""
+"""Laws of view planning: free air, the own room, numbers, names, what the views see; held-out views besides."""
 
 import dataclasses
 import functools
@@ -12,14 +12,13 @@ from tests.geometry.things import box
 from wm.geometry.cameras.heldout import place_heldout
 from wm.geometry.cameras.views import LOWER, place_cameras
 from wm.geometry.cameras.visibility import coverage
-from wm.geometry.cameras.walk import walkthrough
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.mesh.structure import build_structure
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import camera_center, camera_rotation
-from wm.geometry.rays.raycast import build_ray_scene, cast_rays, occluded
+from wm.geometry.rays.raycast import build_ray_scene, cast_rays
 from wm.geometry.rays.surface_points import surface_points
 from wm.schema import CameraSettings
 
@@ -196,32 +195,3 @@ def test_heldout_views_look_at_objects_from_near():
 def test_no_heldout_views_when_none_are_wanted():
     plan = one_room()
     assert place_heldout(plan, build_structure(plan), [], dataclasses.replace(SMALL, heldout_per_room=0)) == []
-
-
-def test_the_walk_visits_every_room_and_passes_through_nothing(planned):
-    plan, mesh, _, _ = planned
-    walk = walkthrough(plan, mesh, SMALL, fps=12, speed=1.4)
-    eyes = np.array([camera_center(camera) for camera in walk])
-    looks = np.array([camera_rotation(camera)[2] for camera in walk])
-    for index in range(len(plan.rooms)):
-        assert shapely.contains_xy(interior_polygon(plan, index), *eyes[:, :2].T).any()
-    assert shapely.contains_xy(interior_polygon(plan, 0), *eyes[0, :2])
-    steps = np.diff(eyes, axis=0)
-    assert np.linalg.norm(steps, axis=1).max() < 1.5 * 1.4 / 12
-    assert not occluded(build_ray_scene(mesh), eyes[:-1], steps, 1.0).any()
-    assert_free(mesh, eyes[::4], 0.08)
-    turns = np.degrees(np.arccos(np.clip(np.sum(looks[1:] * looks[:-1], axis=1), -1, 1)))
-    assert turns.max() < 150 / 12
-    for index in range(len(plan.rooms)):  # a glance around: in each room the headings go half round
-        inside = shapely.contains_xy(interior_polygon(plan, index), *eyes[:, :2].T)
-        bins = np.floor(np.arctan2(looks[inside, 1], looks[inside, 0]) / (np.pi / 4))
-        assert len(np.unique(bins)) >= 4
-
-
-def test_a_room_that_cannot_be_walked_into_is_named():
-    plan = two_rooms()
-    block = box([5.1, 1.0, 0.0], [5.9, 3.0, 2.6], room=1)
-    with pytest.raises(ValueError, match="no walk into study"):
-        walkthrough(plan, assemble_scene(build_structure(plan), [block]), SMALL, fps=12, speed=1.4)
-    with pytest.raises(ValueError, match="speed above 0"):
-        walkthrough(plan, build_structure(plan), SMALL, fps=12, speed=0.0)

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.offline.world.boxes import COARSE, furnished
+from tests.offline.world.boxes import COARSE, box, furnished
+from wm.color import to_linear
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.rays.pinhole import make_camera
 from wm.offline.world.world import World, surface_ids
@@ -54,6 +55,33 @@ def test_lamps_glow(world):
     lamp = shot.object == 2
     assert lamp.any()
     assert shot.rgb[lamp].mean() > shot.rgb[~lamp].mean()
+
+
+def test_lamp_shades_stay_below_burning_and_are_darker_at_their_edges(world):
+    lamp = furnished().objects[2]
+    middle = (lamp.vertices.min(axis=0) + lamp.vertices.max(axis=0)) / 2
+    shot = world.shoot(make_camera(middle - np.array([0.0, 0.6, 0.0]), middle, width=64, height=64, fov_deg=40.0))
+    shade = shot.object == 2
+    rows = [shot.rgb[row][shade[row]].mean() for row in np.flatnonzero(shade.any(axis=1))]
+    assert shot.rgb[shade].max() < 0.95
+    assert rows[len(rows) // 2] > 1.05 * max(rows[0], rows[-1])
+
+
+def test_mirrors_show_the_room():
+    """What a mirror shows the middle of the room is what an eye at the mirror sees the way the ray is thrown back."""
+    mirror = box("mirror", (1.0, 2.62, 0.9), (2.2, 2.7, 1.9), "mirror")
+    context = dataclasses.replace(furnished(), objects=(*furnished().objects, mirror))
+    world = World(context, settings=COARSE)
+    eye = world.room(0).eye.astype(float)
+    shot = world.shoot(make_camera(eye, np.array([1.6, 2.62, 1.4]), width=48, height=48, fov_deg=50.0))
+    assert shot.rgb[shot.object == 3].std(axis=0).max() > 0.05
+    for x, z in ((1.2, 1.2), (1.6, 1.5), (2.0, 1.3), (1.4, 1.7)):
+        place = np.array([x, 2.62, z])
+        thrown = (place - eye) * (1, -1, 1)
+        shown = world.shoot(make_camera(eye, place, width=1, height=1, fov_deg=0.3)).rgb[0, 0]
+        there = world.shoot(make_camera(place - (0, 0.002, 0), place + thrown, width=1, height=1, fov_deg=0.3)).rgb[0, 0]
+        tint = to_linear(np.array([0.6, 0.3, 0.25], np.float32))  # the slot's own colour
+        np.testing.assert_allclose(to_linear(shown), 0.95 * tint * to_linear(there), rtol=0.25, atol=0.02)
 
 
 def test_two_cameras_agree_on_a_surface(world):

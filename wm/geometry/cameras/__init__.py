@@ -3,6 +3,7 @@
     views            place_cameras: the training views of every room
     heldout          place_heldout: views that are never trained on
     walk             walkthrough: the path of the video
+    gaze             what its visitor looks at
     air              the free air of a room
     stations         positions along the walls
     aim              where each camera looks

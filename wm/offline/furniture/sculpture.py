@@ -126,7 +126,7 @@ def column(style: Style, rng: np.random.Generator, size: Size) -> Model:
 def armour(style: Style, rng: np.random.Generator, size: Size) -> Model:
     """A suit of armour on a base, with a halberd."""
     w, d, h = size
-    metal = "chrome"
+    metal = "steel"
     parts = of("dark_wood", box((-0.4 * w, -0.4 * d, 0.0), (0.4 * w, 0.4 * d, 0.06), 0.008))
     s = (h - 0.06) / 1.8
     for side in (-1.0, 1.0):

@@ -41,7 +41,7 @@ from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
 from wm.synth.registry import DRAWN
 from wm.types import OUTSIDE, Camera, SceneObject, View
 
-VERSION = "1"
+VERSION = "2"
 PROVIDES = (DRAWN,)
 SURE = 0.85
 """Value of `known` above which the tone of a pixel is used. Below it, the pixel of the condition is partly grey depth."""

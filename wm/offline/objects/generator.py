@@ -9,7 +9,7 @@ from wm.schema import BackendSettings
 from wm.synth.backends import SceneContext
 from wm.types import SceneObject
 
-VERSION = "1"
+VERSION = "2"
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)

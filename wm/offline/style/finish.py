@@ -142,7 +142,7 @@ PERIOD = frozenset({"gothic", "victorian", "baroque", "roman", "rustic", "japane
 SLOTS: tuple[str, ...] = (
     "wood", "dark_wood", "light_wood", "panel_wood", "painted_wood", "lacquer",
     "fabric", "fabric_accent", "velvet", "leather", "linen", "pillow", "blanket", "curtain", "rug", "rug_border", "woven",
-    "metal", "dark_metal", "brass", "chrome", "stone", "marble", "tile", "ceramic", "glass", "mirror", "water",
+    "metal", "dark_metal", "brass", "chrome", "steel", "stone", "marble", "tile", "ceramic", "glass", "mirror", "water",
     "paper", "book", "painting", "leaf", "flower", "soil", "terracotta", "wax",
     "lamp_shade", "bulb", "flame", "ember", "screen", "appliance", "soot", "foliage",
 )  # fmt: skip

@@ -142,6 +142,7 @@ def slot_finishes(sheet: StyleSheet) -> dict[str, Finish]:
         "dark_metal": of("metal", mix_rgb(metal, black, 0.6), mix_rgb(metal, white, 0.2), scale=0.004, roughness=0.5),
         "brass": of("metal", brass, mix_rgb(brass, white, 0.5), scale=0.004, roughness=0.25),
         "chrome": of("metal", rgb("c9cdd0"), white, scale=0.004, roughness=0.12),
+        "steel": of("metal", rgb("757a80"), white, scale=0.004, roughness=0.3),
         "stone": of("stone_tiles", stone, scaled_rgb(stone, 0.7), scaled_rgb(stone, 0.88), scale=0.6, roughness=0.7),
         "marble": of(
             "marble", mix_rgb(stone, white, 0.2), scaled_rgb(stone, 0.6), scaled_rgb(stone, 0.85), scale=0.3, roughness=0.2

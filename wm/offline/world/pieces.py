@@ -23,6 +23,9 @@ from wm.types import SceneObject
 
 GRAINED = ("wood", "painted_wood", "metal", "panelling", "textile", "leather", "lacquer")
 """Materials with a grain, which runs along the longest side of the part; the rest keep the object's own axes."""
+SHADED, EDGE = 0.2, 0.65
+"""Of what glows: the share of its albedo that scatters light from outside, which would burn it out beside its own lamp, and the
+share of its glow that is left at its upper and lower edge, farthest from the lamp in it."""
 SPECULAR = 0.05
 """Share of the mirrored radiance that a smooth dielectric adds (normal incidence 0.04, a little more for slanting views)."""
 
@@ -38,7 +41,8 @@ class Pieces:
     recolored: np.ndarray  # [f] bool: that colour is not the finish's, whose pattern then only gives light and dark
     corners: np.ndarray  # [f, 3, 3] float32 the face's corners in its part's frame, metres
     axis: np.ndarray  # [f] int8 the axis of that frame nearest to the face's normal
-    emission: np.ndarray  # [f, 3] float32 radiance that the eye sees of a glowing face
+    emission: np.ndarray  # [f, 3] float32 radiance that the eye sees of a glowing face, at half the height of its part
+    rise: np.ndarray  # [f, 3] float32 height of the face's corners in its part: -1 at the foot, 1 at the top
     glow: np.ndarray  # [f, 3] float32 the same as a source of light, not compressed
     thing: np.ndarray  # [f] int32 index into objects
     face: np.ndarray  # [f] int32 its number in that object
@@ -52,7 +56,7 @@ def build_pieces(objects: list[SceneObject], style: Style, *, seed: int) -> Piec
     columns: dict[str, list[np.ndarray]] = {name: [np.zeros(shape, kind)] for name, (shape, kind) in _COLUMNS.items()}
     for number, thing in enumerate(objects):
         for k, name in enumerate(thing.slots):
-            table.setdefault(name, (len(table), _finish(style, name, thing.slot_colors[k])))
+            table.setdefault(name, (len(table), finish_of(style, name, thing.slot_colors[k])))
         columns["thing"].append(np.full(len(thing.faces), number))
         columns["face"].append(np.arange(len(thing.faces)))
         textured = np.zeros(len(thing.slots), bool) if thing.texture is None else thing.texture.slots
@@ -74,6 +78,7 @@ _COLUMNS: dict[str, tuple[tuple[int, ...], type]] = {
     "corners": ((0, 3, 3), F32),
     "axis": ((0,), np.int8),
     "emission": ((0, 3), F32),
+    "rise": ((0, 3), F32),
     "glow": ((0, 3), F32),
     "thing": ((0,), np.int32),
     "face": ((0,), np.int32),
@@ -86,10 +91,10 @@ def _columns(thing: SceneObject, finishes: list[tuple[int, Finish]], style: Styl
     color = np.asarray(thing.slot_colors, F32)
     base = np.array([finish.colors[0] for _, finish in finishes], F32)
     grained = np.array([finish.material in GRAINED for _, finish in finishes])
-    corners, axis = _part_frames(thing, grained, seed)
+    corners, axis, rise = _part_frames(thing, grained, seed)
     strength = np.asarray(thing.emission, F32)[:, None]
     light = np.stack([glow_color(thing, k, style.light) for k in range(len(thing.slots))])
-    seen = np.where(strength > 0, light * (F32(0.75) + F32(0.45) * np.minimum(strength, 2)), 0)
+    seen = np.where(strength > 0, light * (F32(0.65) + F32(0.35) * np.minimum(strength, 2)), 0)
     by_slot = {
         "face_finish": np.array([number for number, _ in finishes]),
         "color": to_linear(color),
@@ -97,7 +102,7 @@ def _columns(thing: SceneObject, finishes: list[tuple[int, Finish]], style: Styl
         "emission": seen,
         "glow": light * strength,
     }
-    return {name: values[thing.face_slot] for name, values in by_slot.items()} | {"corners": corners, "axis": axis}
+    return {name: values[thing.face_slot] for name, values in by_slot.items()} | {"corners": corners, "axis": axis, "rise": rise}
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -135,7 +140,10 @@ def look(pieces: Pieces, face: np.ndarray, barycentric: np.ndarray, footprint: n
         gloss = np.broadcast_to(gloss, len(chosen))[:, None]
         albedo[chosen] = color * F32(1 - surface.metallic)
         mirror[chosen] = F32(surface.metallic) * color + F32((1 - surface.metallic) * SPECULAR) * (F32(0.3) + F32(1.7) * gloss)
-    return Look(albedo=albedo, mirror=mirror, emission=pieces.emission[face])
+    rise = np.sum(np.concatenate([1 - a - b, a, b], axis=1).astype(F32) * pieces.rise[face], axis=1, keepdims=True)
+    emission = pieces.emission[face] * (1 - F32(1 - EDGE) * rise**2)
+    albedo[emission.any(axis=1)] *= F32(SHADED)
+    return Look(albedo=albedo, mirror=mirror, emission=emission)
 
 
 def mean_albedo(pieces: Pieces, face: np.ndarray) -> np.ndarray:
@@ -155,15 +163,16 @@ def _recolored(albedo: np.ndarray, finish: Finish, pieces: Pieces, face: np.ndar
     return np.where(changed[:, None], pieces.color[face] * shade[:, None], albedo)
 
 
-def _finish(style: Style, slot: str, color: np.ndarray) -> Finish:
+def finish_of(style: Style, slot: str, color: np.ndarray) -> Finish:
+    """The finish of a slot in a style, or for a slot that the style does not know paint of this sRGB colour, [3]."""
     try:
         return style.slot(slot)
     except KeyError:  # a slot that the style does not know: painted in the slot's own colour
         return Finish("paint", ((float(color[0]), float(color[1]), float(color[2])),))
 
 
-def _part_frames(thing: SceneObject, grained: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Corners of every face in its part's frame [f, 3, 3], and the frame's axis nearest to its normal [f]."""
+def _part_frames(thing: SceneObject, grained: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Corners of every face in its part's frame [f, 3, 3], the frame's axis nearest to its normal [f], and `Pieces.rise`."""
     rotation, origin = thing.T_world_object[:3, :3], thing.T_world_object[:3, 3]
     local = (thing.vertices - origin) @ rotation
     corners = local[thing.faces]
@@ -184,7 +193,8 @@ def _part_frames(thing: SceneObject, grained: np.ndarray, seed: int) -> tuple[np
     framed = np.take_along_axis(centred, axes[part][:, None].repeat(3, axis=1), axis=2)
     normal = np.abs(face_crosses(framed))
     keep = np.where(grained[slot_of], 1.0, 0.0)[:, None]
-    return framed + (shift * keep)[part][:, None], np.argmax(normal, axis=1)
+    rise = centred[..., 2] / np.maximum((high - low)[part, 2:] / 2, 1e-6)
+    return framed + (shift * keep)[part][:, None], np.argmax(normal, axis=1), rise
 
 
 def _parts(local: np.ndarray, faces: np.ndarray, slot: np.ndarray) -> np.ndarray:

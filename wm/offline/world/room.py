@@ -44,6 +44,7 @@ PER_CELL = 6
 class BakedRoom:
     """What a renderer needs to know of a room."""
 
+    room: int
     charts: RoomCharts
     textures: Pyramid  # finished colour of each chart, sRGB
     facet_faces: np.ndarray  # [f] int32 scene face -> row of `facets` and `pieces`, -1
@@ -86,7 +87,7 @@ def bake_room(
         images = list(pool.map(lambda k: _shade(charts, k, sheets[k], spans[k], baked), range(len(spans))))
     first = len(charts.atlas.inside)
     return BakedRoom(
-        charts=charts, textures=build_pyramid(images, settings.cell / PER_CELL),
+        room=room, charts=charts, textures=build_pyramid(images, settings.cell / PER_CELL),
         facet_faces=facet_faces, facets=facets, pieces=pieces,
         light=probes.mix @ np.concatenate([field.irradiance[first:], field.mirror[first:]], axis=1),
         environment=field.environment, eye=middle.astype(np.float32),

@@ -12,9 +12,9 @@ import threading
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Bool, Int
 
-from wm.color import LUMINANCE
+from wm.color import LUMINANCE, to_linear, to_srgb
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.rays.pinhole import camera_center, camera_rays
 from wm.geometry.rays.raycast import build_ray_scene, cast, cast_rays
@@ -22,7 +22,7 @@ from wm.offline.style.finish import Style
 from wm.offline.style.theme import style_of
 from wm.offline.world.edit import Edit, edited_mesh
 from wm.offline.world.light import BakeSettings, chart_places, facet_weights, look_up, sun_direction
-from wm.offline.world.pieces import look
+from wm.offline.world.pieces import finish_of, look
 from wm.offline.world.pyramid import sample_pyramid
 from wm.offline.world.room import BakedRoom, bake_room
 from wm.offline.world.tone import tone
@@ -37,6 +37,10 @@ POLISHED = 0.1
 """Share of mirrored radiance from which a reflection is looked up at the hit and not mixed from light points."""
 
 
+MIRROR_DETAIL = 0.004
+"""Width of what one look-up in a mirror covers, per metre of its way: finer than any texture that is made of the picture."""
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Shot:
     """What the world shows a camera."""
@@ -44,6 +48,21 @@ class Shot:
     rgb: np.ndarray  # [h, w, 3] float32 sRGB
     gbuffer: GBuffer  # of pixel centres
     object: np.ndarray  # [h, w] int32 object at each pixel, OUTSIDE for structure
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Sight:
+    """Hits of rays, and how the rays meet them."""
+
+    face: np.ndarray  # [n] int32 of the lit mesh
+    barycentric: np.ndarray  # [n, 2] float32
+    across: np.ndarray  # [n] float32 metres that a pixel spans there, seen straight on
+    cosine: np.ndarray  # [n] float32 between ray and normal
+    directions: np.ndarray  # [n, 3] float32
+
+    def of(self, which: np.ndarray) -> "Sight":
+        """The hits that `which` indexes."""
+        return Sight(*(getattr(self, field.name)[which] for field in dataclasses.fields(self)))
 
 
 class World:
@@ -66,6 +85,7 @@ class World:
         self._scene = self._lit = build_ray_scene(self.mesh)
         self._sun = sun_direction(self.mesh, self._style.light)
         self._surface = np.append(surface_ids(self.mesh, self._objects), -1)  # the last is for misses
+        self._silvered = np.append(mirror_faces(self.mesh, self._objects, self._style), False)  # of the unedited mesh
         self._source: np.ndarray | None = None  # face of the unedited mesh that each face looks like; None: itself
         self._rooms: collections.OrderedDict[int, BakedRoom] = collections.OrderedDict()
         self._lock = threading.RLock()
@@ -139,24 +159,24 @@ class World:
         across = depth * length * np.float32(1 / camera.focal[1])  # metres that a pixel spans, seen straight on
         face = face if self._source is None else self._source[face]
         for index in np.unique(room[room >= 0]):
-            baked = self.room(int(index))
-            here = room == index
-            flat = np.flatnonzero(here & (baked.charts.face_slot[face] >= 0))
-            rgb[flat] = self._structure(baked, face[flat], barycentric[flat], across[flat], cosine[flat], directions[flat])
-            solid = np.flatnonzero(here & (baked.facet_faces[face] >= 0))
-            rgb[solid] = self._solid(baked, face[solid], barycentric[solid], across[solid] / np.sqrt(cosine[solid]))
+            here = np.flatnonzero(room == index)
+            seen = Sight(face[here], barycentric[here], across[here], cosine[here], directions[here])
+            rgb[here] = self._surfaces(self.room(int(index)), seen, mirrors=True)
         return rgb
 
-    def _structure(
-        self,
-        baked: BakedRoom,
-        face: np.ndarray,
-        barycentric: np.ndarray,
-        across: np.ndarray,
-        cosine: np.ndarray,
-        directions: np.ndarray,
-    ) -> np.ndarray:
+    def _surfaces(self, baked: BakedRoom, sight: Sight, *, mirrors: bool) -> np.ndarray:
+        """[n, 3] colour of hits on the surfaces of one room; black on what is none of it. `mirrors` show the room."""
+        rgb = np.zeros((len(sight.face), 3), np.float32)
+        flat = np.flatnonzero(baked.charts.face_slot[sight.face] >= 0)
+        rgb[flat] = self._structure(baked, sight.of(flat))
+        solid = np.flatnonzero(baked.facet_faces[sight.face] >= 0)
+        rgb[solid] = self._solid(baked, sight.of(solid), mirrors=mirrors)
+        return rgb
+
+    def _structure(self, baked: BakedRoom, sight: Sight) -> np.ndarray:
         """Textures of walls and floors: two probes along the direction in which a slanting pixel is long."""
+        face, barycentric, across = sight.face, sight.barycentric, sight.across
+        cosine, directions = sight.cosine, sight.directions
         chart, s, t = chart_places(baked.charts, face, barycentric)
         atlas = baked.charts.atlas
         along_u = np.einsum("ni,ni->n", directions, atlas.chart_u.astype(np.float32)[chart])
@@ -173,25 +193,52 @@ class World:
         near[slanting] = 0.5 * (near[slanting] + far)
         return near
 
-    def _solid(self, baked: BakedRoom, face: np.ndarray, barycentric: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+    def _solid(self, baked: BakedRoom, sight: Sight, *, mirrors: bool) -> np.ndarray:
         """Objects: material evaluated at the hit, light from the corners of the facet around it."""
+        face, barycentric = sight.face, sight.barycentric
         if len(face) == 0:
             return np.zeros((0, 3), np.float32)
         local = baked.facet_faces[face]
         points, weights = facet_weights(baked.facets, local, barycentric)
         light = np.einsum("nk,nkc->nc", weights, baked.light[points])
-        seen = look(baked.pieces, local, barycentric, footprint)
+        seen = look(baked.pieces, local, barycentric, sight.across / np.sqrt(sight.cosine))
         mirrored = light[:, 3:]
         polished = np.flatnonzero(seen.mirror.max(axis=1) > POLISHED)
         mirrored[polished] = self._reflected(baked, face[polished], barycentric[polished], light[polished])
-        return tone(seen.albedo * light[:, :3] + seen.mirror * mirrored + seen.emission)
+        rgb = tone(seen.albedo * light[:, :3] + seen.mirror * mirrored + seen.emission)
+        silvered = np.flatnonzero(self._silvered[face]) if mirrors else np.zeros(0, np.int64)
+        inside, shown = self._in_mirror(baked, face[silvered], barycentric[silvered])
+        shown = to_srgb(seen.mirror[silvered[inside]] * to_linear(shown))
+        rgb[silvered[inside]] = np.maximum(shown, tone(seen.albedo * light[:, :3])[silvered[inside]])
+        return rgb
+
+    def _in_mirror(self, baked: BakedRoom, face: np.ndarray, barycentric: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Which points of mirrors show the room itself to an eye in its middle, [k] indices, and what they show it, [k, 3]."""
+        place, normal = self._places(face, barycentric)
+        view = place - baked.eye
+        distance = np.linalg.norm(view, axis=1)
+        view = view / np.maximum(distance, 1e-6)[:, None]
+        away = np.einsum("ni,ni->n", view, normal)[:, None]
+        # For an eye behind it the mirror shows what is straight before it.
+        directions = np.where(away < 0, view - 2 * away * normal, normal).astype(np.float32)
+        hits = cast_rays(self._lit, place + 1e-3 * normal, directions)
+        inside = np.flatnonzero(hits.hit & (np.append(self._lit.mesh.face_room, OUTSIDE)[hits.face] == baked.room))
+        face, directions = hits.face[inside], directions[inside]
+        cosine = np.clip(np.abs(np.einsum("ni,ni->n", directions, self._lit.normals[face])), 0.05, 1)
+        across = (MIRROR_DETAIL * (distance[inside] + hits.t[inside])).astype(np.float32)
+        return inside, self._surfaces(baked, Sight(face, hits.barycentric[inside], across, cosine, directions), mirrors=False)
+
+    def _places(self, face: np.ndarray, barycentric: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """World points [n, 3] on faces of the lit mesh, and the faces' normals [n, 3]."""
+        a, b = barycentric[:, :1], barycentric[:, 1:]
+        corners = self._lit.mesh.vertices[self._lit.mesh.faces[face]].astype(np.float32)
+        return (1 - a - b) * corners[:, 0] + a * corners[:, 1] + b * corners[:, 2], self._lit.normals[face]
 
     def _reflected(self, baked: BakedRoom, face: np.ndarray, barycentric: np.ndarray, light: np.ndarray) -> np.ndarray:
         """[n, 3] what polished points show an eye in the middle of the room, dimmer where little light arrives."""
         a, b = barycentric[:, :1], barycentric[:, 1:]
         c = 1 - a - b
-        corners = self._lit.mesh.vertices[self._lit.mesh.faces[face]].astype(np.float32)
-        view = c * corners[:, 0] + a * corners[:, 1] + b * corners[:, 2] - baked.eye
+        view = self._places(face, barycentric)[0] - baked.eye
         view /= np.maximum(np.linalg.norm(view, axis=1, keepdims=True), 1e-6)
         normals = baked.facets.corner_normal[baked.facet_faces[face]]
         normal = c * normals[:, 0] + a * normals[:, 1] + b * normals[:, 2]
@@ -201,7 +248,7 @@ class World:
         return look_up(baked.environment, mirror) * reached
 
     def _edges(self, gbuffer: GBuffer) -> np.ndarray:
-        """[h, w] bool: pixels beside another surface, a crease, or a jump in depth."""
+        """[h, w] bool: pixels beside another surface, a crease, or a jump in depth; and mirrors, which show such places."""
         ids = self._surface[gbuffer.face]
         edges = np.zeros(ids.shape, bool)
         for axis in (0, 1):
@@ -213,7 +260,8 @@ class World:
             differ = (ids[a] != ids[b]) | crease | jump
             edges[a] |= differ
             edges[b] |= differ
-        return edges
+        face = gbuffer.face if self._source is None else np.append(self._source, -1)[gbuffer.face]
+        return edges | self._silvered[face]
 
 
 def surface_ids(mesh: Mesh, objects: Sequence[SceneObject]) -> Int[np.ndarray, "f"]:
@@ -223,6 +271,16 @@ def surface_ids(mesh: Mesh, objects: Sequence[SceneObject]) -> Int[np.ndarray, "
     slot = np.concatenate([np.zeros(int((mesh.face_object == OUTSIDE).sum()), np.int64), *(thing.face_slot for thing in objects)])
     first = structure.max(initial=0) + 1
     return np.where(mesh.face_object == OUTSIDE, structure, first + mesh.face_object.astype(np.int64) * slots + slot)
+
+
+def mirror_faces(mesh: Mesh, objects: Sequence[SceneObject], style: Style) -> Bool[np.ndarray, "f"]:
+    """Which faces of a scene's mesh are silvered glass, and not a texture that shows some."""
+    parts = [np.zeros(int((mesh.face_object == OUTSIDE).sum()), bool)]
+    for thing in objects:
+        silvered = [finish_of(style, slot, color).material == "mirror" for slot, color in zip(thing.slots, thing.slot_colors)]
+        painted = np.zeros(len(silvered), bool) if thing.texture is None else thing.texture.slots
+        parts.append((np.array(silvered, bool) & ~painted)[thing.face_slot])
+    return np.concatenate(parts)
 
 
 def _contrasting(rgb: np.ndarray) -> np.ndarray:
