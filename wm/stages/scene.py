@@ -11,12 +11,12 @@ from wm.geometry import (
     RayScene,
     assemble_scene,
     build_ray_scene,
-    load_plan,
     parse_plan,
     place_cameras,
     place_heldout,
     plan_to_json,
 )
+from wm.geometry.plan.loading import read_plan_file
 from wm.schema import ObjectsSettings, RunConfig
 from wm.stages import edits
 from wm.stages.arranged import ArrangementError, arranged, is_json, with_ids
@@ -76,12 +76,12 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     key = run.key("plan", *source, config.plan.max_iterations)
     edited = edits.edited_key(run, "plan", PLAN, key)
     if edited is not None and is_json((run.folder.path / PLAN).read_bytes()):
-        plan = load_plan(run.folder.path / PLAN)
+        plan = _told(run.folder.path / PLAN)
         edits.accept(run, "plan", edited, [PLAN], "structure, furniture, cameras and all that follows are made again")
         return plan, edited
     if not run.folder.has("plan", key):
         if file:
-            plan = load_plan(pathlib.Path(file))
+            plan = _told(pathlib.Path(file))
             layout = {"source": "file", "iterations": 0, "seconds": 0.0}
         else:
             backend = make_backend("language", config.language)
@@ -98,10 +98,18 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     return parse_plan((run.folder.path / PLAN).read_text(encoding="utf-8"), PLAN), key
 
 
+def _told(file: pathlib.Path) -> FloorPlan:
+    """A user's plan; what is not read or was changed in it is said."""
+    reading = read_plan_file(file)
+    for note in reading.notes:
+        print(f"{file}: {note}")
+    return reading.plan
+
+
 def _user_file(file: str) -> pathlib.Path:
     path = pathlib.Path(file)
     if not path.is_file():
-        load_plan(path)  # raises the error that says what is wrong with the path
+        read_plan_file(path)  # raises the error that says what is wrong with the path
     return path
 
 

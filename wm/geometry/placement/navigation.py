@@ -69,7 +69,7 @@ def _largest_share(area: BaseGeometry) -> float:
 def walkable_floor(plan: FloorPlan) -> BaseGeometry:
     """The floors of all rooms and of the doors and passages between them."""
     floors = [interior_polygon(plan, index) for index in range(len(plan.rooms))]
-    return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.kind != "window")])
+    return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.is_way)])
 
 
 def outlines(things: Iterable[Float[np.ndarray, "_ 3 3"]], low: float, high: float) -> BaseGeometry:

@@ -57,6 +57,10 @@ class Violation:
         return f"{where}: {self.rule}: {self.message}"
 
 
+class PlanWarning(UserWarning):
+    """What a plan says and is not read, or what was changed in it."""
+
+
 class PlanError(InputError):
     """A floor plan that cannot be used, with everything that is wrong with it."""
 

@@ -37,7 +37,7 @@ RULES = {
     "rooms_overlap": "Rooms touch at most, within 0.01 m.",
     "opening_off_wall": "An opening lies on a wall of its room, between the corners inside and below the ceiling.",
     "openings_overlap": "Openings keep 0.01 m of wall between them; the two entries of one door agree.",
-    "door_exterior": "Doors and passages lead into exactly one other room.",
+    "door_exterior": "Doors and passages lead into exactly one other room, or doors to the outside.",
     "window_interior": "Windows look outside.",
     "unreachable": "Every room can be reached from every other through doors and passages.",
 }
@@ -66,7 +66,7 @@ def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing
     portals, misplaced = place_openings(plan, unknown)
     violations += [*_cramped(plan), *misplaced]
     violations += [fault for portal in portals if (fault := _squeezed(plan, portal)) is not None]
-    violations += _blind_windows(plan, portals)
+    violations += _blocked(plan, portals)
     if unknown is None and not openings_missing:
         violations += _unreachable(plan, portals)
     return tuple(violations)
@@ -152,18 +152,23 @@ def _squeezed(plan: FloorPlan, portal: Portal) -> Violation | None:
     return None
 
 
-def _blind_windows(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
-    windows = [portal for portal in portals if portal.behind is None]
+def _blocked(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
+    """Windows and entrances with a room close before them."""
     tree = shapely.STRtree(room_polygons(plan))
     violations = []
-    for portal in windows:
+    for portal in portals:
+        if portal.is_way:
+            continue
         room = plan.rooms[portal.wall.room]
         view = _strip(portal, -OUTLOOK, -SHARED).buffer(-SHARED / 4, join_style="mitre")
         blocking = sorted(plan.rooms[k].id for k in tree.query(view, predicate="intersects"))
         if blocking:
-            name = describe(portal.opening, portal.index)
-            message = f"{name} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; windows look outside"
-            violations.append(Violation(room.id, "window_interior", message))
+            message = f"{describe(portal.opening, portal.index)} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; "
+            if portal.kind == "window":
+                violations.append(Violation(room.id, "window_interior", message + "windows look outside"))
+            else:
+                advice = "rooms that a door joins share one line, the middle of the wall: close the gap between their polygons"
+                violations.append(Violation(room.id, "door_exterior", message + advice))
     return violations
 
 

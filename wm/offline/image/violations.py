@@ -92,7 +92,7 @@ def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.
     """A doorway of the view's room that shows what lies behind it."""
     doors = []
     for k, portal in enumerate(portals(context.plan)):
-        if portal.kind != "window" and view.room in portal.rooms and _seen_through(portal, view, gbuffer) >= PLAIN:
+        if portal.is_way and view.room in portal.rooms and _seen_through(portal, view, gbuffer) >= PLAIN:
             doors.append(k)
     if not doors:
         return None
