@@ -43,7 +43,8 @@ def snapped(rooms: Sequence[Room]) -> tuple[tuple[Room, ...], tuple[str, ...]]:
         shift = float(np.abs(after[mine] - before[mine]).max())
         if shift > 0 and shapely.Polygon(after[mine]).is_valid:
             result[k] = _moved(rooms[k], after[mine])
-            notes.append(f"room {rooms[k].id}: corners moved by up to {1e3 * shift:.1f} mm, so that its walls meet those of its neighbours")
+            how = f"corners moved by up to {1e3 * shift:.1f} mm, so that its walls meet those of its neighbours"
+            notes.append(f"room {rooms[k].id}: {how}")
     return tuple(result), tuple(notes)
 
 
