@@ -57,7 +57,8 @@ def test_the_plan_in_an_answer_is_read(answer):
     assert [room.id for room in plan.rooms] == ["hall", "study"]
     for room, expected in zip(plan.rooms, two_rooms().rooms, strict=True):
         assert room.polygon.tolist() == expected.polygon.tolist()
-        assert [(o.kind, o.position, o.width) for o in room.openings] == [(o.kind, o.position, o.width) for o in expected.openings]
+        for hole, wanted in zip(room.openings, expected.openings, strict=True):
+            assert (hole.kind, hole.position, hole.width) == (wanted.kind, wanted.position, wanted.width)
 
 
 def test_a_single_quote_within_a_name_stays():

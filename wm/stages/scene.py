@@ -118,9 +118,10 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
     file = _arrangement_file(config)
     furnisher = make_furnisher(config, context)
     rearranged = [file_digest(_existing(file))] if file is not None else []
-    key = run.key("furnish", _FORMAT, plan_key, config.furnish, config.scene.theme, *furnisher.keys, *rearranged)
+    made_of = (_FORMAT, plan_key, *_meshes(context.plan), config.furnish, config.scene.theme, *furnisher.keys)
+    key = run.key("furnish", *made_of, *rearranged)
     if not config.furnish.enabled:
-        return (), key
+        return with_ids(context.objects, [room.id for room in context.plan.rooms]), key
     arrangement = run.folder.path / OBJECTS
     edited = edits.edited_key(run, "furnish", OBJECTS, key)
     if edited is not None and is_json(arrangement.read_bytes()):
@@ -152,6 +153,11 @@ def _furnished(run: RunContext, context: SceneContext, furnisher: Furnisher) -> 
     if entry is None or not arrays.is_file() or entry["files"].get(OBJECT_ARRAYS) != file_digest(arrays):
         write_atomically(arrays, codecs.encode_objects(_made(run, context, furnisher)))
     return codecs.decode_objects(arrays.read_bytes())
+
+
+def _meshes(plan: FloorPlan) -> list[str]:
+    """Digests of the mesh files that the plan names."""
+    return [file_digest(pathlib.Path(thing.mesh)) for thing in plan.objects if thing.mesh is not None]
 
 
 def _arrangement_file(config: RunConfig) -> str | None:

@@ -2,8 +2,8 @@
 
 Models are asked for JSON and answer with code fences, sentences before and after it, single quotes, comments, commas before a
 closing bracket, Python's True and None, numbers in quotes and points as {"x": 1, "y": 2}. All of that is read here. Files of a
-user's own stay strict JSON (`wm.geometry.load_plan`): there a misread number would be a wall in the wrong place, here the rules of
-plans and the model itself, which is shown every fault, catch it.
+user's own stay strict JSON (`wm.geometry.load_plan`), so that nothing in them is guessed. A proposal that is misread breaks a
+rule, and the model is asked again.
 """
 
 import json

@@ -60,10 +60,11 @@ def test_a_corner_beside_the_middle_of_a_wall_is_moved_onto_it():
 
 def test_an_opening_goes_with_its_wall():
     hall, study = two_rooms().rooms
+    shift = np.array([0.015, 0.0])
     shifted = dataclasses.replace(
         study,
-        polygon=study.polygon + [0.015, 0.0],
-        openings=tuple(dataclasses.replace(o, segment=o.segment + [0.015, 0.0]) for o in study.openings),
+        polygon=study.polygon + shift,
+        openings=tuple(dataclasses.replace(o, segment=o.segment + shift) for o in study.openings),
     )
     listed = dataclasses.replace(shifted, openings=(*shifted.openings, opening("door", (5.015, 0), (5.015, 4), 1.5)))
     with pytest.warns(PlanWarning):

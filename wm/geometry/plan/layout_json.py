@@ -2,11 +2,14 @@
 
 import json
 import re
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, Room, Violation
+from wm.geometry.plan.object_json import object_json, read_objects
+from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, PlanObject, Room, Violation
 from wm.geometry.plan.units import METRES, OPENINGS, metres_per, opening_kind, unread
 
 MAX_BYTES = 8 * 2**20
@@ -52,7 +55,7 @@ def encode(plan: FloorPlan) -> str:
             "default_ceiling_height": plan.default_ceiling_height,
         },
         "rooms": [_room_json(room) for room in plan.rooms],
-        "objects": [],
+        "objects": [object_json(thing) for thing in plan.objects],
     }
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -109,6 +112,13 @@ class Reader:
         good = tuple(room for room in read if room is not None)
         self.rooms_missing = len(good) < len(read)
         return FloorPlan(good, wall, ceiling) if good else None
+
+    def objects(self, document: dict[str, Any], rooms: Sequence[Room], folder: Path | None) -> tuple[PlanObject, ...]:
+        """The furniture that the document lists, in these rooms; relative mesh files lie in `folder`."""
+        things, faults, notes = read_objects(_given(document, "objects", []), rooms, scale=self.scale, folder=folder)
+        self.violations += faults
+        self.notes += notes[:_MOST_NOTES]
+        return things
 
     def _fault(self, room: str | None, rule: str, message: str) -> None:
         self.violations.append(Violation(room, rule, message))

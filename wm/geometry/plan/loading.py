@@ -62,7 +62,7 @@ def read_plan_file(path: str | os.PathLike[str]) -> PlanReading:
     except (OSError, ValueError) as error:  # ValueError: a path with a null character
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         raise PlanError((Violation(None, "file", f"cannot be read: {reason}"),), source) from None
-    return read_plan(decode(text, source), source)
+    return read_plan(decode(text, source), source, Path(path).absolute().parent)
 
 
 def parse_plan(text: str, source: str = "plan") -> FloorPlan:
@@ -83,22 +83,29 @@ def parse_plan(text: str, source: str = "plan") -> FloorPlan:
     return reading.plan
 
 
-def read_plan(document: Any, source: str) -> PlanReading:
+def read_plan(document: Any, source: str, folder: Path | None = None) -> PlanReading:
     """The floor plan in a decoded JSON document, its walls snapped (wm.geometry.plan.snapping).
+
+    Args:
+      folder: where the mesh files lie that the plan names; without it, the working directory.
 
     Raises:
       PlanError: as `parse_plan`.
     """
     reader = Reader()
     plan = reader.plan(document)
-    violations, notes = list(reader.violations), tuple(reader.notes)
+    changes: tuple[str, ...] = ()
+    violations: list[Violation] = []
     if plan is not None:
         rooms, changes = snapped(plan.rooms)
-        plan, notes = dataclasses.replace(plan, rooms=rooms), notes + changes
+        plan = dataclasses.replace(plan, rooms=rooms)
         violations += check_plan(plan, rooms_missing=reader.rooms_missing, openings_missing=reader.openings_missing)
+        if not violations and not reader.violations:
+            plan = dataclasses.replace(plan, objects=reader.objects(document, rooms, folder))
+    violations = [*reader.violations, *violations]
     if plan is None or violations:
         raise PlanError(tuple(violations), source)
-    return PlanReading(plan, notes)
+    return PlanReading(plan, (*reader.notes, *changes))
 
 
 def _warn(reading: PlanReading, source: str) -> None:

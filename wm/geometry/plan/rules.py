@@ -31,6 +31,7 @@ RULES = {
     "room_id": "Ids are 1 to 64 ASCII letters, digits, _ and -: they become folder names.",
     "duplicate_id": "No two rooms have one id, case aside.",
     "opening_type": "An opening is a door, a window or a passage.",
+    "object": "Furniture that the plan lists has a label, stands in a room, and has a size that fits or a mesh file.",
     "self_intersection": "A room's polygon does not cross or touch itself.",
     "zero_area": "A room's polygon has an area.",
     "room_too_small": "Inside its walls a room is one piece that holds a disk of 0.3 m radius.",

@@ -32,7 +32,8 @@ class ProceduralObjects:
         Raises:
           ValueError: the context's density is not a share.
         """
-        return furnish_room(context.plan, room, style_of(context.theme), seed=context.seed, density=context.density)
+        style, around = style_of(context.theme), context.objects
+        return furnish_room(context.plan, room, style, seed=context.seed, density=context.density, around=around)
 
 
 def make(settings: Settings, context: SceneContext | None = None) -> ProceduralObjects:

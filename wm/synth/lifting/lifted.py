@@ -174,7 +174,7 @@ def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: 
 def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: Settings) -> LiftedRoom:
     """One room drawn from these cameras, segmented, reconstructed and placed."""
     bare = build_ray_scene(context.structure)
-    site = room_site(context.plan, room)
+    site = room_site(context.plan, room, context.objects)
     drawings = []
     for k, camera in enumerate(cameras):
         seed = _seed(context.seed, room, k)
