@@ -300,3 +300,23 @@ def test_an_entrance_is_closed_and_no_way():
     # The recesses on both sides of a leaf a quarter of the wall thick, less the opening's inset edges.
     assert whole.volume - solid.volume == pytest.approx(0.9 * 2.1 * (0.15 - 0.15 / 4), rel=1e-6)
     assert walkable_floor(with_entrance).area == pytest.approx(walkable_floor(plan).area)
+
+
+@pytest.mark.parametrize(
+    ("rooms", "says"),
+    [
+        ((A, rectangle("b", 4, 0, 8, 4), rectangle("up", 0, 0, 4, 4)), "a plan has one storey"),
+        ((A, B, rectangle("wc", 5, 1, 7, 3)), "cut wc out of the floor_polygon of b"),
+        ((A, rectangle("b", 3.8, 0, 8, 4)), "move the wall between them"),
+        ((A, B, rectangle("c", 20, 0, 24, 4)), "put one on a wall that it shares"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 0.1)), B), "from 0.15 to 3.85 m of its wall_segment"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 4), (4, 0), 3.0)), B), "from 0.15 to 3.85 m of its wall_segment"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1, width=0.4)), B), "so that a person gets through"),
+        ((rectangle("a", 0, 0, 4, 4, opening("passage", (0, 0), (4, 0), 1)),), "make it a door, which is closed"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)), "close the gap"),
+    ],
+)
+def test_a_refusal_says_what_would_be_right(rooms, says):
+    with pytest.raises(PlanError) as caught:
+        checked(FloorPlan(rooms))
+    assert says in str(caught.value)

@@ -191,8 +191,9 @@ class Reader:
         segment = self._points(room, value.get("wall_segment"), f"{name}.wall_segment", 2, 2)
         least_width, least_height = _SIZES[kind]
         position = self._number(room, value, f"{name}.position", None, 0.0, MAX_COORDINATE)
-        width = self._number(room, value, f"{name}.width", None, least_width, 100.0)
-        height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1])
+        why = "" if kind == "window" else ", so that a person gets through"
+        width = self._number(room, value, f"{name}.width", None, least_width, 100.0, why)
+        height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1], why)
         sill = self._number(
             room,
             value,
@@ -208,7 +209,9 @@ class Reader:
             return None
         return Opening(kind, segment, position, width, height, sill)
 
-    def _number(self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float) -> float | None:
+    def _number(
+        self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float, why: str = ""
+    ) -> float | None:
         value = _given(holder, path.rsplit(".", 1)[-1], None)
         if value is None and default is not None:
             return default
@@ -218,7 +221,7 @@ class Reader:
         if not low <= value * self.scale <= high:  # also false for infinities
             wanted = f"{low:g}" if low == high else f"between {low:g} and {high:g}"
             found = _show(value) if self.scale == 1 else f"{_show(value)} ({value * self.scale:.4g} m)"
-            self._fault(room, "number", f"{path} is {found}; it must be {wanted} (metres)")
+            self._fault(room, "number", f"{path} is {found}; it must be {wanted} (metres){why}")
             return None
         return float(value) * self.scale
 

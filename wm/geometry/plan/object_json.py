@@ -5,8 +5,8 @@
 
 `position` is the middle of the foot, with the height above the floor as an optional third number; `size` is width, depth and
 height; `yaw` turns counter-clockwise seen from above, in degrees, and at 0 the front looks along -y. With `mesh` (a file, beside
-the plan's) the thing has that shape, stretched to `size` where it is given; without, it is a box. `support` and `color` ([r, g, b]
-in 0..1) are optional, as is `room`, which the position decides.
+the plan's) the thing has that shape, stretched to `size` where it is given; without, it is a box. `support` and `color` (three
+numbers within 0..1) are optional, as is `room`, which the position decides.
 """
 
 import math

@@ -18,6 +18,7 @@ from wm.geometry.plan.walls import SHARED, room_polygons
 LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius, a little more than a body, to be entered
 LEAST_AREA = 0.01  # square metres: a polygon of less counts as having no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
+_ADVICE = "; put one on a wall that it shares"
 MOST_OVERLAPS = 256  # more are not listed, and no other rule is checked then
 
 RULES = {
@@ -113,13 +114,25 @@ def _overlaps(plan: FloorPlan) -> list[Violation]:
     tree = shapely.STRtree(cores)
     violations = []
     for a, core in enumerate(cores):
-        for b in np.sort(tree.query(core, predicate="intersects")):
+        for b in np.sort(tree.query(core, predicate="intersects")).tolist():
             if b > a:
-                area = polygons[a].intersection(polygons[b]).area
-                violations.append(Violation(plan.rooms[a].id, "rooms_overlap", f"overlaps {plan.rooms[b].id} by {area:.3g} m^2"))
+                violations.append(Violation(plan.rooms[a].id, "rooms_overlap", _overlap(plan, a, b, polygons)))
             if len(violations) == MOST_OVERLAPS:
                 return violations
     return violations
+
+
+def _overlap(plan: FloorPlan, a: int, b: int, polygons: np.ndarray) -> str:
+    """By how much two rooms overlap, and what would be right."""
+    area = polygons[a].intersection(polygons[b]).area
+    small, large = sorted((polygons[a].area, polygons[b].area))
+    inner, outer = (a, b) if polygons[a].area <= polygons[b].area else (b, a)
+    advice = "; move the wall between them"
+    if area > 0.99 * large:
+        advice = "; a plan has one storey: give each its own plan"
+    elif area > 0.99 * small:
+        advice = f"; cut {plan.rooms[inner].id} out of the floor_polygon of {plan.rooms[outer].id}, which may need two rooms"
+    return f"overlaps {plan.rooms[b].id} by {area:.3g} m^2{advice}"
 
 
 def _cramped(plan: FloorPlan) -> list[Violation]:
@@ -148,9 +161,24 @@ def _squeezed(plan: FloorPlan, portal: Portal) -> Violation | None:
         away = 1.0 if side == listing else -1.0
         before = _strip(portal, face + away * SHARED, face + away * 2 * SHARED)
         if floor is not None and before.difference(floor).area > 1e-6:
-            message = f"{name} reaches into a corner of {other.id}; keep it between the inner faces of the walls beside it"
+            message = f"{name} reaches into a corner of {other.id}; {_free_stretch(portal, floor, face + 1.5 * away * SHARED)}"
             return Violation(room.id, "opening_off_wall", message)
     return None
+
+
+def _free_stretch(portal: Portal, floor: shapely.Polygon, inside: float) -> str:
+    """Where on its segment an opening could lie: the free stretch of the wall's face that it overlaps most."""
+    wall, opening = portal.wall, portal.opening
+    ends = wall.start + np.array([[0.0], [wall.length]]) * wall.direction + inside * wall.normal
+    free = shapely.get_parts(floor.intersection(shapely.LineString(ends)))
+    parts = [np.asarray(part.coords) for part in free if part.length > 0]
+    along = (opening.segment[1] - opening.segment[0]) / np.linalg.norm(opening.segment[1] - opening.segment[0])
+    spans = [sorted(((part - opening.segment[0]) @ along).tolist()) for part in parts]
+    if not spans:
+        return "no part of that wall's face is free"
+    here, there = opening.position, opening.position + opening.width
+    low, high = max(spans, key=lambda span: min(span[1], there) - max(span[0], here))
+    return f"between the inner faces of the walls beside it there is room from {low:.3g} to {high:.3g} m of its wall_segment"
 
 
 def _blocked(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
@@ -200,7 +228,7 @@ def _unreachable(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation
     sizes = np.bincount(component, minlength=len(plan.rooms))
     main = int(np.argmax(sizes))
     return [
-        Violation(room.id, "unreachable", f"no doors or passages lead to it from {plan.rooms[main].id}")
+        Violation(room.id, "unreachable", f"no doors or passages lead to it from {plan.rooms[main].id}{_ADVICE}")
         for room, part in zip(plan.rooms, component)
         if part != main
     ]
