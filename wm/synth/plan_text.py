@@ -29,9 +29,7 @@ _WORDS = {"True": "true", "False": "false", "None": "null", "undefined": "null",
 _CLOSES = {"{": "}", "[": "]"}
 _MOST_STARTS = 32
 """Opening brackets of an answer that are tried."""
-_NUMBERS = frozenset(
-    ("position", "width", "height", "sill_height", "ceiling_height", "wall_thickness", "default_ceiling_height")
-)
+_NUMBERS = frozenset(("position", "width", "height", "sill_height", "ceiling_height", "wall_thickness", "default_ceiling_height"))
 _POINTS = frozenset(("floor_polygon", "wall_segment"))
 _LENGTH = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(?:m|meters?|metres?)?\s*")
 

@@ -131,8 +131,10 @@ B = rectangle("b", 4, 0, 8, 4)
         ((Room("a", "a", np.array([[0, 0], [4, 4], [4, 0], [0, 4.0]]), 2.8, ()),), [("a", "self_intersection")]),
         ((Room("a", "a", np.array([[0, 0], [4, 0], [2, 0.0]]), 2.8, ()),), [("a", "zero_area")]),
         ((rectangle("a", 0, 0, 4, 4, opening("passage", (0, 0), (4, 0), 1)),), [("a", "door_exterior")]),
-        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)),
-         [("a", "door_exterior"), ("b", "unreachable")]),
+        (
+            (rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)),
+            [("a", "door_exterior"), ("b", "unreachable")],
+        ),
         ((rectangle("a", 0, 0, 4, 4, window((0, 1), (4, 1), 1)),), [("a", "opening_off_wall")]),
         ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 2.8)),), [("a", "opening_off_wall")]),
         ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 0.1)),), [("a", "opening_off_wall")]),

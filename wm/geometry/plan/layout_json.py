@@ -215,7 +215,7 @@ class Reader:
         value = _given(holder, path.rsplit(".", 1)[-1], None)
         if value is None and default is not None:
             return default
-        if not _is_number(value):
+        if value is None or not _is_number(value):
             self._fault(room, "type", f"{path} is {'missing' if value is None else _show(value)}; it must be a number of metres")
             return None
         if not low <= value * self.scale <= high:  # also false for infinities

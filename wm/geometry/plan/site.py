@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.plan.openings import portals
@@ -48,7 +49,7 @@ def wall_opening(
 class Taken:
     """Room that something takes up which stands before a room is furnished."""
 
-    outline: shapely.Polygon  # from above
+    outline: BaseGeometry  # from above
     low: float  # metres above the floor
     high: float
 
@@ -119,9 +120,7 @@ def room_site(plan: FloorPlan, room: int, things: Sequence[SceneObject] = ()) ->
         openings.append((portal.kind, ends, portal.sill, portal.head))
     site = make_site(interior_polygon(plan, room), plan.rooms[room].ceiling_height, openings)
     mine = (thing.vertices for thing in things if thing.room == room and thing.support != "flat")
-    taken = tuple(
-        Taken(shapely.convex_hull(shapely.multipoints(v[:, :2])), float(v[:, 2].min()), float(v[:, 2].max())) for v in mine
-    )
+    taken = tuple(Taken(shapely.MultiPoint(v[:, :2]).convex_hull, float(v[:, 2].min()), float(v[:, 2].max())) for v in mine)
     return dataclasses.replace(site, taken=taken) if taken else site
 
 

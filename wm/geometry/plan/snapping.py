@@ -51,7 +51,9 @@ def snapped(rooms: Sequence[Room]) -> tuple[tuple[Room, ...], tuple[str, ...]]:
 def _joined(points: Float[np.ndarray, "n 2"], owner: np.ndarray) -> np.ndarray:
     """For each corner the index of the one that it becomes: the nearest earlier corner of another room that stays in place."""
     target = np.arange(len(points))
-    pairs = shapely.STRtree(shapely.points(points)).query(shapely.points(points), predicate="dwithin", distance=SNAP).T
+    pairs = (
+        shapely.STRtree(np.asarray(shapely.points(points))).query(shapely.points(points), predicate="dwithin", distance=SNAP).T
+    )
     near: dict[int, list[int]] = {}
     for i, j in pairs.tolist():
         if j < i and owner[i] != owner[j]:
@@ -69,7 +71,7 @@ def _joined(points: Float[np.ndarray, "n 2"], owner: np.ndarray) -> np.ndarray:
 
 def _onto_walls(points: Float[np.ndarray, "n 2"], owner: np.ndarray, following: np.ndarray) -> Float[np.ndarray, "n 2"]:
     """Corners beside the middle of another room's wall moved onto it; corners at one place stay at one place."""
-    walls = shapely.linestrings(np.stack([points, points[following]], axis=1))
+    walls = np.asarray(shapely.linestrings(np.stack([points, points[following]], axis=1)))
     place, inverse = np.unique(points, axis=0, return_inverse=True)
     corner, wall = shapely.STRtree(walls).query(shapely.points(place), predicate="dwithin", distance=SNAP)
     result = place.copy()
