@@ -26,20 +26,21 @@ def snapped(rooms: Sequence[Room]) -> tuple[tuple[Room, ...], tuple[str, ...]]:
     Rooms whose polygons are not simple, or would not be afterwards, are left alone: the rules name what is wrong with them.
     """
     sound = [k for k, room in enumerate(rooms) if len(room.polygon) >= 3 and shapely.Polygon(room.polygon).is_valid]
-    owner = np.repeat(sound, [len(rooms[k].polygon) for k in sound]).astype(int)
+    counts = [len(rooms[k].polygon) for k in sound]
+    owner = np.repeat(sound, counts).astype(int)
     if len(set(sound)) < 2:
         return tuple(rooms), ()
     before = np.concatenate([rooms[k].polygon for k in sound])
     after = before[_joined(before, owner)]
-    following = np.concatenate([np.roll(np.flatnonzero(owner == k), -1) for k in sound])
+    parts = np.split(np.arange(len(owner)), np.cumsum(counts)[:-1])
+    following = np.concatenate([np.roll(part, -1) for part in parts])
     for _ in range(_PASSES):
         moved = _onto_walls(after, owner, following)
         if (moved == after).all():
             break
         after = moved
     result, notes = list(rooms), []
-    for k in sound:
-        mine = owner == k
+    for k, mine in zip(sound, parts):
         shift = float(np.abs(after[mine] - before[mine]).max())
         if shift > 0 and shapely.Polygon(after[mine]).is_valid:
             result[k] = _moved(rooms[k], after[mine])
@@ -50,22 +51,22 @@ def snapped(rooms: Sequence[Room]) -> tuple[tuple[Room, ...], tuple[str, ...]]:
 
 def _joined(points: Float[np.ndarray, "n 2"], owner: np.ndarray) -> np.ndarray:
     """For each corner the index of the one that it becomes: the nearest earlier corner of another room that stays in place."""
+    places = np.asarray(shapely.points(points))
+    i, j = shapely.STRtree(places).query(places, predicate="dwithin", distance=SNAP)
+    foreign = owner[i] != owner[j]
+    i, j = i[foreign], j[foreign]
+    distance = np.linalg.norm(points[i] - points[j], axis=1)
+    # A corner takes one corner of each room at most, so that no edge of a room collapses.
+    taken = set(zip(owner[i[distance <= EXACT]].tolist(), j[distance <= EXACT].tolist()))
+    earlier = (j < i) & (distance > EXACT)
+    i, j, distance = i[earlier], j[earlier], distance[earlier]
     target = np.arange(len(points))
-    pairs = (
-        shapely.STRtree(np.asarray(shapely.points(points))).query(shapely.points(points), predicate="dwithin", distance=SNAP).T
-    )
-    near: dict[int, list[int]] = {}
-    for i, j in pairs.tolist():
-        if j < i and owner[i] != owner[j]:
-            near.setdefault(i, []).append(j)
-    for i in sorted(near):
-        fixed = [j for j in near[i] if target[j] == j]
-        if fixed:
-            distance = np.linalg.norm(points[fixed] - points[i], axis=1)
-            taken = {int(target[k]) for k in np.flatnonzero(owner == owner[i]) if k != i}
-            j = fixed[int(np.argmin(distance))]
-            if distance.min() > EXACT and j not in taken:
-                target[i] = j
+    for k in np.lexsort((distance, i)).tolist():
+        corner, other = int(i[k]), int(j[k])
+        room = int(owner[corner])
+        if target[corner] == corner and target[other] == other and (room, other) not in taken:
+            target[corner] = other
+            taken.add((room, other))
     return target
 
 
@@ -74,18 +75,18 @@ def _onto_walls(points: Float[np.ndarray, "n 2"], owner: np.ndarray, following: 
     walls = np.asarray(shapely.linestrings(np.stack([points, points[following]], axis=1)))
     place, inverse = np.unique(points, axis=0, return_inverse=True)
     corner, wall = shapely.STRtree(walls).query(shapely.points(place), predicate="dwithin", distance=SNAP)
-    result = place.copy()
-    done: set[int] = set()
-    for i, j in zip(corner.tolist(), wall.tolist()):
-        start, end = points[j], points[following[j]]
-        if i in done or (owner[inverse == i] == owner[j]).any():
-            continue
-        span = end - start
-        share = float((place[i] - start) @ span / max(span @ span, EXACT**2))
-        foot = start + share * span
-        beside_end = min(np.linalg.norm(place[i] - start), np.linalg.norm(place[i] - end)) <= SNAP
-        if 0 < share < 1 and not beside_end and np.linalg.norm(foot - place[i]) > EXACT:
-            result[i] = foot
+    start, span = points[wall], points[following[wall]] - points[wall]
+    share = np.sum((place[corner] - start) * span, axis=1) / np.maximum(np.sum(span**2, axis=1), EXACT**2)
+    foot = start + share[:, None] * span
+    to_ends = [np.linalg.norm(place[corner] - end, axis=1) for end in (start, start + span)]
+    off = np.linalg.norm(foot - place[corner], axis=1)
+    beside = (share > 0) & (share < 1) & (np.minimum(*to_ends) > SNAP) & (off > EXACT)
+    here = set(zip(inverse.tolist(), owner.tolist()))
+    result, done = place.copy(), set()
+    for k in np.flatnonzero(beside).tolist():
+        i = int(corner[k])
+        if i not in done and (i, int(owner[wall[k]])) not in here:
+            result[i] = foot[k]
             done.add(i)
     return result[inverse]
 
