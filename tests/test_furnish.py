@@ -29,7 +29,7 @@ def test_lifted_objects_keep_their_identity(tmp_path):
     with open_run_folder(tmp_path, {"seed": 0}) as folder:
         context = RunContext(config=config, folder=folder, meter=StageMeter({}))
         built = stage.build_scene(context)
-        table = json.loads((tmp_path / stage.OBJECTS).read_text())
+        table = json.loads((tmp_path / stage.OBJECTS).read_text())["objects"]
         assert len(table) == len(built.objects) >= 3
         assert {row["room"] for row in table} == set(built.rooms) and all(row["label"] and len(row["size"]) == 3 for row in table)
         assert set(range(len(built.objects))) == set(built.mesh.face_object[built.mesh.face_object >= 0].tolist())

@@ -128,6 +128,10 @@ class RunFolder:
         self.overwrites = False
         """Whether another configuration's run was here."""
 
+    def entry(self, name: str) -> dict[str, Any] | None:
+        """The recorded key and file digests of an entry, whether its files are whole or not; None if there is none."""
+        return self._entries.get(name)
+
     def has(self, name: str, key: str) -> bool:
         """Whether entry `name` made from `key` is here and whole; a damaged one is forgotten, with a line.
 

@@ -80,7 +80,7 @@ _ROWS = (
            "Share of the free cells of the floor (a grid of 0.15 m; objects that stand on the floor are obstacles) that lie in "
            "the largest 4-connected component."),
     Metric("navigability_body", "Navigability of a body", "%", ".1f", "higher",
-           "The same share of the cells in which a body of 0.25 m radius has room."),
+           "Share of the area that the centre of a body of 0.25 m radius can be in that is its largest connected piece."),
     Metric("coverage_1", "Surface seen once", "%", ".1f", "higher",
            "Share, by area, of the surface in sight of a visitor that is in at least one planned view."),
     Metric("coverage_3", "Surface seen three times", "%", ".1f", "higher",

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from tabulate import tabulate
 
 from wm.artifacts import identity, json_text, open_run_folder, write_atomically
-from wm.geometry import load_plan
+from wm.geometry.plan.loading import read_plan_file
 from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.metric_table import METRICS
@@ -53,7 +53,7 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     """
     prepare_process()
     if config.plan.file is not None:
-        load_plan(pathlib.Path(config.plan.file))  # raises before a folder is made
+        read_plan_file(config.plan.file)  # raises before a folder is made
     header, meter = _header(config), StageMeter(_timings(folder), keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
     lend = Neighbours(neighbours, say=print, account=account).lend

@@ -211,6 +211,13 @@ class BackendSettings:
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
+class ObjectsSettings(BackendSettings):
+    """What every backend that furnishes rooms has, beside its own knobs."""
+
+    file: str | None = setting(None, "An objects.json with furniture removed, moved or turned; None: as furnished.")
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
 class RunConfig:
     """The whole of a run; conf/config.yaml and what the command line says.
 

@@ -146,6 +146,7 @@ class SceneObject:
     size: np.ndarray  # [3] float64 extent along the object's own axes, metres
     emission: np.ndarray  # [s] float32: how strongly each slot glows (0 for none)
     texture: Texture | None = None  # colours finer than the slots', where images have shown them
+    id: str = ""  # unique in the scene: the name of its GLB node and its row in objects.json; empty until it is furnished
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

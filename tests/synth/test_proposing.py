@@ -72,3 +72,17 @@ def test_added_corridors_are_fine():
 def test_an_empty_programme_is_refused(rooms):
     with pytest.raises(ValueError, match="programme"):
         propose_plan(Scripted(good()), "a house", rooms, seed=3, max_iterations=1)
+
+
+def test_a_plan_between_fences_and_words_is_read():
+    wrapped = f"Here is the plan:\n```json\n{good()}\n```\nEnjoy!"
+    proposal = propose_plan(Scripted(wrapped), "a house", ROOMS, seed=3, max_iterations=1)
+    assert proposal.iterations == 1 and proposal.transcript[0].text == wrapped
+
+
+def test_an_answer_without_a_plan_is_told_what_was_wrong():
+    backend = Scripted("I would rather write a poem.", good())
+    propose_plan(backend, "a house", ROOMS, seed=3, max_iterations=2)
+    assert backend.asked[1]["violations"] == [
+        "plan: json: the answer holds no JSON object; answer with the floor plan as one JSON object and nothing else"
+    ]

@@ -34,6 +34,7 @@ from wm.geometry.plan.footprint import interior_polygon as interior_polygon
 from wm.geometry.plan.loading import FloorPlan as FloorPlan
 from wm.geometry.plan.loading import Opening as Opening
 from wm.geometry.plan.loading import PlanError as PlanError
+from wm.geometry.plan.loading import PlanWarning as PlanWarning
 from wm.geometry.plan.loading import Room as Room
 from wm.geometry.plan.loading import Violation as Violation
 from wm.geometry.plan.loading import load_plan as load_plan

@@ -153,7 +153,7 @@ def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
 
 def _export(run: RunContext, scene: Scene, result: PaintSummary, key: str) -> None:
     """Writes `scaffold.glb`: the structure with its painted texture, and every object as a node of its own."""
-    nodes = [*atlas_nodes(result.atlas, scene.context.structure), *object_nodes(scene.objects)]
+    nodes = [*atlas_nodes(result.atlas, scene.context.structure), *object_nodes(scene.objects, scene.rooms)]
     run.folder.save(
         "paint",
         key,

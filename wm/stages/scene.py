@@ -5,26 +5,31 @@ import json
 import pathlib
 
 from wm import codecs
-from wm.artifacts import file_digest, json_text
+from wm.artifacts import file_digest, json_text, write_atomically
 from wm.geometry import (
     FloorPlan,
     RayScene,
     assemble_scene,
     build_ray_scene,
-    load_plan,
     parse_plan,
     place_cameras,
     place_heldout,
     plan_to_json,
 )
+from wm.geometry.plan.loading import read_plan_file
+from wm.schema import ObjectsSettings, RunConfig
+from wm.stages import edits
+from wm.stages.arranged import ArrangementError, arranged, is_json, with_ids
 from wm.stages.run_context import RunContext
 from wm.synth.backends import SceneContext
-from wm.synth.furnished import bare_context, make_furnisher
+from wm.synth.furnished import Furnisher, bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
+_FORMAT = "ids"
+"""Part of the furniture's key: older run folders hold objects without ids."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -69,9 +74,14 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     file = config.plan.file
     source = [file_digest(_user_file(file))] if file else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
     key = run.key("plan", *source, config.plan.max_iterations)
+    edited = edits.edited_key(run, "plan", PLAN, key)
+    if edited is not None and is_json((run.folder.path / PLAN).read_bytes()):
+        plan = _told(run.folder.path / PLAN)
+        edits.accept(run, "plan", edited, [PLAN], "structure, furniture, cameras and all that follows are made again")
+        return plan, edited
     if not run.folder.has("plan", key):
         if file:
-            plan = load_plan(pathlib.Path(file))
+            plan = _told(pathlib.Path(file))
             layout = {"source": "file", "iterations": 0, "seconds": 0.0}
         else:
             backend = make_backend("language", config.language)
@@ -80,31 +90,85 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
             )
             plan = proposal.plan
             layout = {"source": config.language.backend, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}
+        text = plan_to_json(plan)
+        edits.keep_copy(run, "plan", PLAN, text)
         # The time that the layout took is not part of the plan's entry, so that equal runs have equal manifests.
         run.folder.write(LAYOUT, json_text(layout))
-        run.folder.save("plan", key, {PLAN: plan_to_json(plan)})
-    return parse_plan((run.folder.path / PLAN).read_text(), PLAN), key
+        run.folder.save("plan", key, {PLAN: text})
+    return parse_plan((run.folder.path / PLAN).read_text(encoding="utf-8"), PLAN), key
+
+
+def _told(file: pathlib.Path) -> FloorPlan:
+    """A user's plan; what is not read or was changed in it is said."""
+    reading = read_plan_file(file)
+    for note in reading.notes:
+        print(f"{file}: {note}")
+    return reading.plan
 
 
 def _user_file(file: str) -> pathlib.Path:
     path = pathlib.Path(file)
     if not path.is_file():
-        load_plan(path)  # raises the error that says what is wrong with the path
+        read_plan_file(path)  # raises the error that says what is wrong with the path
     return path
 
 
 def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
     config = run.config
+    file = _arrangement_file(config)
     furnisher = make_furnisher(config, context)
-    key = run.key("furnish", plan_key, config.furnish, config.scene.theme, *furnisher.keys)
+    rearranged = [file_digest(_existing(file))] if file is not None else []
+    made_of = (_FORMAT, plan_key, *_meshes(context.plan), config.furnish, config.scene.theme, *furnisher.keys)
+    key = run.key("furnish", *made_of, *rearranged)
     if not config.furnish.enabled:
-        return (), key
+        return with_ids(context.objects, [room.id for room in context.plan.rooms]), key
+    arrangement = run.folder.path / OBJECTS
+    edited = edits.edited_key(run, "furnish", OBJECTS, key)
+    if edited is not None and is_json(arrangement.read_bytes()):
+        objects = arranged(_furnished(run, context, furnisher), arrangement.read_bytes(), context.plan, str(arrangement))
+        consequence = "cameras, paintings and all that follows are made again"
+        edits.accept(run, "furnish", edited, [OBJECT_ARRAYS, OBJECTS], consequence)
+        return objects, edited
     if not run.folder.has("furnish", key):
-        with run.bar("furnish", len(context.plan.rooms)) as bar:
-            objects = furnisher.furnish(context, done=bar.update)
-        summary = codecs.object_summary(objects, [room.id for room in context.plan.rooms])
-        run.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(objects), OBJECTS: json_text(summary)})
-    return codecs.decode_objects((run.folder.path / OBJECT_ARRAYS).read_bytes()), key
+        objects = made = _made(run, context, furnisher)
+        if file is not None:
+            objects = arranged(made, _existing(file).read_bytes(), context.plan, file)
+        text = json_text(codecs.object_summary(objects, [room.id for room in context.plan.rooms]))
+        edits.keep_copy(run, "furnish", OBJECTS, text)
+        run.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(made), OBJECTS: text})
+    made = codecs.decode_objects((run.folder.path / OBJECT_ARRAYS).read_bytes())
+    return arranged(made, arrangement.read_bytes(), context.plan, str(arrangement)), key
+
+
+def _made(run: RunContext, context: SceneContext, furnisher: Furnisher) -> tuple[SceneObject, ...]:
+    """All objects of the scene as the backend furnishes it, with ids."""
+    with run.bar("furnish", len(context.plan.rooms)) as bar:
+        objects = furnisher.furnish(context, done=bar.update)
+    return with_ids(objects, [room.id for room in context.plan.rooms])
+
+
+def _furnished(run: RunContext, context: SceneContext, furnisher: Furnisher) -> tuple[SceneObject, ...]:
+    """The objects that an edited arrangement refers to; made again where their file is not whole."""
+    entry, arrays = run.folder.entry("furnish"), run.folder.path / OBJECT_ARRAYS
+    if entry is None or not arrays.is_file() or entry["files"].get(OBJECT_ARRAYS) != file_digest(arrays):
+        write_atomically(arrays, codecs.encode_objects(_made(run, context, furnisher)))
+    return codecs.decode_objects(arrays.read_bytes())
+
+
+def _meshes(plan: FloorPlan) -> list[str]:
+    """Digests of the mesh files that the plan names."""
+    return [file_digest(pathlib.Path(thing.mesh)) for thing in plan.objects if thing.mesh is not None]
+
+
+def _arrangement_file(config: RunConfig) -> str | None:
+    return config.objects.file if isinstance(config.objects, ObjectsSettings) else None
+
+
+def _existing(file: str) -> pathlib.Path:
+    path = pathlib.Path(file)
+    if not path.is_file():
+        raise ArrangementError(f"objects.file={file}: there is no such file; give an objects.json as a run writes it")
+    return path
 
 
 def _cameras(run: RunContext, plan: FloorPlan, rays: RayScene) -> tuple[tuple[View, ...], tuple[View, ...]]:

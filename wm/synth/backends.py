@@ -24,7 +24,7 @@ class SceneContext:
     seed: int
     plan: Any  # wm.geometry.FloorPlan
     structure: Mesh  # without objects
-    objects: tuple[SceneObject, ...]  # none while the scene is being furnished
+    objects: tuple[SceneObject, ...]  # while the scene is being furnished, those that the plan lists itself
     density: float = 1.0  # 0..1: share of the optional pieces of furniture that are wanted (furnish.density)
 
 

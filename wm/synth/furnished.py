@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from wm.geometry import FloorPlan, build_structure, load_plan
+from wm.geometry.exchange.plan_objects import plan_objects
 from wm.schema import RunConfig
 from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext
 from wm.synth.proposing import propose_plan
@@ -22,10 +23,13 @@ class Furnisher:
     keys: tuple[Any, ...]  # for a stage's key: the backend, and the models that it uses, since they shape the furniture
 
     def furnish(self, context: SceneContext, *, done: Callable[[], object] = lambda: None) -> list[SceneObject]:
-        """The objects of all rooms; `done` is called after each room. The backend is closed at the end, also after an error."""
+        """The objects that the plan lists, then those of all rooms, furnished around them.
+
+        `done` is called after each room. The backend is closed at the end, also after an error.
+        """
         with contextlib.ExitStack() as held:
             held.callback(close_backend, self.backend)
-            objects: list[SceneObject] = []
+            objects = list(context.objects)
             for room in range(len(context.plan.rooms)):
                 objects += self.backend.furnish(context, room)
                 done()
@@ -44,9 +48,9 @@ def make_furnisher(config: RunConfig, context: SceneContext) -> Furnisher:
 
 
 def bare_context(config: RunConfig, plan: FloorPlan) -> SceneContext:
-    """The scene of a configuration before it is furnished."""
+    """The scene of a configuration before it is furnished; it holds what the plan lists itself."""
     return SceneContext(
-        theme=config.scene.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=(),
+        theme=config.scene.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=plan_objects(plan),
         density=config.furnish.density,
     )  # fmt: skip
 

@@ -8,8 +8,9 @@ import dataclasses
 import time
 from collections import Counter
 
-from wm.geometry.plan.loading import FloorPlan, PlanError, parse_plan
+from wm.geometry.plan.loading import FloorPlan, PlanError, read_plan
 from wm.synth.backends import LanguageBackend
+from wm.synth.plan_text import plan_document
 from wm.synth.room_names import CONNECTING, room_sort
 
 _LONGEST_NAME = 200  # as in wm.geometry.plan.loading
@@ -80,7 +81,7 @@ def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed
 
 def _validated(text: str, rooms: list[str]) -> tuple[FloorPlan | None, list[str]]:
     try:
-        plan = parse_plan(text, source="proposal")
+        plan = read_plan(plan_document(text), "proposal").plan
     except PlanError as error:
         return None, [str(violation) for violation in error.violations]
     violations = _programme_violations(plan, rooms)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.geometry.plans import l_shaped, one_room, opening, random_plan, two_rooms
+from tests.geometry.plans import l_shaped, one_room, opening, random_plan, rectangle, two_rooms
 from tests.geometry.things import box
 from wm.geometry.placement.navigation import navigability, object_corners, outlines, walkable_floor
 from wm.geometry.plan.footprint import interior_polygon
@@ -40,6 +40,14 @@ def test_an_empty_open_house_is_navigable_throughout(plan):
 def test_doors_stay_open_however_the_grid_falls(angle, x, y):
     result = navigability(turned(two_rooms(), angle, (x, y)), [])
     assert result.share == 1.0 and result.share_body == 1.0
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(0.3, 0.8), st.floats(0.4, 2.6), st.floats(0.0, np.pi))
+def test_whether_a_body_passes_a_door_depends_on_its_width_alone(width, position, angle):
+    rooms = (rectangle("hall", 0, 0, 3, 4, opening("door", (3, 0), (3, 4), position, width)), rectangle("store", 3, 0, 6, 4))
+    share = navigability(turned(FloorPlan(rooms), angle), []).share_body
+    assert share == 1.0 if width >= 0.5 else share < 0.6
 
 
 def test_a_shut_house_is_as_navigable_as_its_largest_room():

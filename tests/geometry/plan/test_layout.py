@@ -18,7 +18,8 @@ from tests.geometry.plans import (
     two_rooms,
     window,
 )
-from wm.geometry import FloorPlan, PlanError, Room, build_structure, load_plan, parse_plan, plan_to_json
+from wm.geometry import FloorPlan, PlanError, PlanWarning, Room, build_structure, load_plan, parse_plan, plan_to_json
+from wm.geometry.placement.navigation import walkable_floor
 from wm.geometry.plan.rules import RULES
 
 # In the layout of the published files: doors listed by one room or by both, doors without a sill, integers as coordinates.
@@ -70,11 +71,16 @@ def test_json_round_trip(seed, rooms):
     assert plan_to_json(parse_plan(text)) == text
 
 
-def test_fields_with_defaults_may_be_missing():
-    plan = parse_plan(
-        '{"rooms": [{"id": "a", "floor_polygon": [[0, 0], [4, 0], [4, 4], [0, 4]], "extra": 1, "openings":'
-        ' [{"type": "window", "wall_segment": [[0, 0], [4, 0]], "position": 1, "width": 1, "height": 1}]}]}'
-    )
+@pytest.mark.parametrize("null", ["", ', "name": null, "ceiling_height": null, "metadata": null', ', "openings": null'])
+def test_fields_with_defaults_may_be_missing_or_null(null):
+    in_room, in_plan = null.replace(', "metadata": null', ""), ', "metadata": null' if "metadata" in null else ""
+    window = '{"type": "window", "wall_segment": [[0, 0], [4, 0]], "position": 1, "width": 1, "height": 1, "sill_height": null}'
+    openings = "" if "openings" in null else f', "openings": [{window}]'
+    polygon = '"floor_polygon": [[0, 0], [4, 0], [4, 4], [0, 4]]'
+    plan = parse_plan(f'{{"rooms": [{{"id": "a", {polygon}{in_room}{openings}}}]{in_plan}}}')
+    if "openings" in null:
+        assert plan.rooms[0].openings == ()
+        return
     assert (plan.rooms[0].name, plan.rooms[0].ceiling_height, plan.rooms[0].openings[0].sill_height) == ("a", 2.8, 0.9)
 
 
@@ -105,7 +111,9 @@ def test_accepted(plan):
 def test_rooms_a_centimetre_apart_still_touch():
     plan = two_rooms()
     moved = dataclasses.replace(plan.rooms[1], polygon=plan.rooms[1].polygon + np.array([0.009, 0]), openings=())
-    build_structure(checked(FloorPlan((plan.rooms[0], moved))))
+    with pytest.warns(PlanWarning, match=r"room study: corners moved by up to 9\.0 mm"):
+        joined = checked(FloorPlan((plan.rooms[0], moved)))
+    assert joined.rooms[1].polygon[:, 0].min() == 5.0 and build_structure(joined).to_trimesh().is_watertight
 
 
 A = rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1.5))
@@ -122,7 +130,11 @@ B = rectangle("b", 4, 0, 8, 4)
         ((A, B, rectangle("c", 0, 4, 0.8, 8)), [("c", "room_too_small"), ("c", "unreachable")]),
         ((Room("a", "a", np.array([[0, 0], [4, 4], [4, 0], [0, 4.0]]), 2.8, ()),), [("a", "self_intersection")]),
         ((Room("a", "a", np.array([[0, 0], [4, 0], [2, 0.0]]), 2.8, ()),), [("a", "zero_area")]),
-        ((rectangle("a", 0, 0, 4, 4, opening("door", (0, 0), (4, 0), 1)),), [("a", "door_exterior")]),
+        ((rectangle("a", 0, 0, 4, 4, opening("passage", (0, 0), (4, 0), 1)),), [("a", "door_exterior")]),
+        (
+            (rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)),
+            [("a", "door_exterior"), ("b", "unreachable")],
+        ),
         ((rectangle("a", 0, 0, 4, 4, window((0, 1), (4, 1), 1)),), [("a", "opening_off_wall")]),
         ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 2.8)),), [("a", "opening_off_wall")]),
         ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 0.1)),), [("a", "opening_off_wall")]),
@@ -149,7 +161,7 @@ def test_each_rule_is_named_with_its_room(rooms, expected):
 
 def test_every_violation_is_named_at_once():
     rooms = (
-        rectangle("a", 0, 0, 4, 4, opening("door", (0, 0), (4, 0), 1), window((0, 0), (9, 0), 7)),
+        rectangle("a", 0, 0, 4, 4, opening("passage", (0, 0), (4, 0), 1), window((0, 0), (9, 0), 7)),
         rectangle("a", 4, 0, 8, 4),
         rectangle("c", 7, 0, 12, 4, window((7, 4), (7, 0), 1)),
         Room("d", "d", np.array([[20, 0], [24, 4], [24, 0], [20, 4.0]]), 2.8, ()),
@@ -209,7 +221,7 @@ def square_with(fields: str, metadata: str = "{}") -> str:
         (square_with('"id": "a", "openings": {}'), [("a", "type")]),
         (square_with('"id": "a", "openings": [{"type": ["door"]}, 3]'), [("a", "opening_type"), ("a", "type")]),
         (
-            square_with('"id": "a"', '{"units": "feet", "wall_thickness": 9}'),
+            square_with('"id": "a"', '{"units": "parsecs", "wall_thickness": 9}'),
             [(None, "units"), (None, "number")],
         ),
     ],
@@ -237,3 +249,76 @@ def test_messages_stay_short():
     with pytest.raises(PlanError) as caught:
         parse_plan(json.dumps({"rooms": [{"id": "x" * 100_000, "name": ["y"] * 100_000, "floor_polygon": "z" * 100_000}]}))
     assert len(str(caught.value)) < 1000
+
+
+def test_a_plan_in_feet_is_the_plan_in_metres():
+    document = json.loads(plan_to_json(two_rooms()))
+    document["metadata"]["units"] = "feet"
+    per_foot = {"wall_thickness", "default_ceiling_height", "ceiling_height", "position", "width", "height", "sill_height"}
+
+    def in_feet(value, key=""):
+        if isinstance(value, dict):
+            return {name: in_feet(part, name) for name, part in value.items()}
+        if isinstance(value, list):
+            return [in_feet(part, key) for part in value]
+        return value / 0.3048 if key in per_foot | {"floor_polygon", "wall_segment"} else value
+
+    plan = parse_plan(json.dumps(in_feet(document)))
+    np.testing.assert_allclose(build_structure(plan).vertices, build_structure(two_rooms()).vertices, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda plan: plan.update(stairs=[]), "'stairs'"),
+        (lambda plan: plan["rooms"][0].update(ceilling_height=4.0), "'ceilling_height' (is 'ceiling_height' meant?)"),
+        (lambda plan: plan["metadata"].update(author="me"), "'author'"),
+        (lambda plan: plan["rooms"][0]["openings"][0].update(swing="left"), "room hall, openings[0], says 'swing'"),
+    ],
+)
+def test_a_key_that_is_not_read_is_named(change, says):
+    document = json.loads(plan_to_json(two_rooms()))
+    change(document)
+    with pytest.warns(PlanWarning) as caught:
+        parse_plan(json.dumps(document))
+    assert len(caught) == 1 and says in str(caught[0].message)
+
+
+@pytest.mark.parametrize(("word", "kind"), [("opening", "passage"), ("Archway", "passage"), ("double door", "door")])
+def test_openings_have_other_names(word, kind):
+    document = json.loads(plan_to_json(two_rooms()))
+    document["rooms"][0]["openings"][0]["type"] = word
+    assert parse_plan(json.dumps(document)).rooms[0].openings[0].kind == kind
+
+
+def test_an_entrance_is_closed_and_no_way():
+    entrance = opening("door", (0, 0), (5, 0), 0.5)
+    plan = two_rooms()
+    hall = dataclasses.replace(plan.rooms[0], openings=(*plan.rooms[0].openings, entrance))
+    with_entrance = checked(FloorPlan((hall, plan.rooms[1])))
+    mesh, bare = build_structure(with_entrance), build_structure(plan)
+    solid, whole = mesh.to_trimesh(), bare.to_trimesh()
+    assert solid.is_watertight
+    # The recesses on both sides of a leaf a quarter of the wall thick, less the opening's inset edges.
+    assert whole.volume - solid.volume == pytest.approx(0.9 * 2.1 * (0.15 - 0.15 / 4), rel=1e-6)
+    assert walkable_floor(with_entrance).area == pytest.approx(walkable_floor(plan).area)
+
+
+@pytest.mark.parametrize(
+    ("rooms", "says"),
+    [
+        ((A, rectangle("b", 4, 0, 8, 4), rectangle("up", 0, 0, 4, 4)), "a plan has one storey"),
+        ((A, B, rectangle("wc", 5, 1, 7, 3)), "cut wc out of the floor_polygon of b"),
+        ((A, rectangle("b", 3.8, 0, 8, 4)), "move the wall between them"),
+        ((A, B, rectangle("c", 20, 0, 24, 4)), "put one on a wall that it shares"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 0.1)), B), "from 0.15 to 3.85 m of its wall_segment"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 4), (4, 0), 3.0)), B), "from 0.15 to 3.85 m of its wall_segment"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1, width=0.4)), B), "so that a person gets through"),
+        ((rectangle("a", 0, 0, 4, 4, opening("passage", (0, 0), (4, 0), 1)),), "make it a door, which is closed"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)), "close the gap"),
+    ],
+)
+def test_a_refusal_says_what_would_be_right(rooms, says):
+    with pytest.raises(PlanError) as caught:
+        checked(FloorPlan(rooms))
+    assert says in str(caught.value)

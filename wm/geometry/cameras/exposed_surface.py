@@ -56,7 +56,7 @@ def room_eyes(plan: FloorPlan, scene: RayScene, room: int, settings: CameraSetti
     doors = [
         _in_doorway(portal.ends, height)
         for portal in portals(plan)
-        if portal.kind != "window" and room in portal.rooms
+        if portal.is_way and room in portal.rooms
         for height in (_LOW, min(air.eye_height, portal.head - FACE))
     ]
     return np.concatenate([*inside, *doors])

@@ -120,7 +120,7 @@ def _beside(air: RoomAir, low: np.ndarray, high: np.ndarray, settings: CameraSet
 
 def _doors(plan: FloorPlan, air: RoomAir, settings: CameraSettings) -> Iterator[Camera]:
     for portal in portals(plan):
-        if portal.kind != "window" and air.index in portal.rooms:
+        if portal.is_way and air.index in portal.rooms:
             for step in _STEPS:
                 camera = door_camera(air, portal, settings, step=step)
                 if camera is not None:

@@ -143,7 +143,7 @@ def _into(spot: np.ndarray, inward: np.ndarray, middle: np.ndarray) -> np.ndarra
 def _room_cameras(plan: FloorPlan, air: RoomAir, points: SurfacePoints, settings: CameraSettings) -> dict[str, list[Camera]]:
     sides = short_sides(air)
     bootstrap = _bootstrap(air, settings)
-    doors = [portal for portal in portals(plan) if portal.kind != "window" and air.index in portal.rooms and settings.doorway]
+    doors = [portal for portal in portals(plan) if portal.is_way and air.index in portal.rooms and settings.doorway]
     doorway = [camera for camera in (door_camera(air, portal, settings, step=0.0) for portal in doors) if camera is not None]
     perimeter = _distinct(_options(air, sides[0], settings, "perimeter"), bootstrap, settings)
     options = [*perimeter, *_options(air, sides[0], settings, "overhead")]

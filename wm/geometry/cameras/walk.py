@@ -115,7 +115,7 @@ def walkthrough(
     """
     if not (fps > 0 and speed > 0):
         raise ValueError(f"a walk needs frames and a speed above 0, not fps {fps}, speed {speed}")
-    doors = [portal.head for portal in portals(plan) if portal.kind != "window"]
+    doors = [portal.head for portal in portals(plan) if portal.is_way]
     height = min(settings.eye_height, *(room.ceiling_height - _AIR for room in plan.rooms), *(h - _AIR for h in doors))
     scene = ray_scene(mesh)
     floor = _walkable(plan, scene.mesh, height)

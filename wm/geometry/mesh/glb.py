@@ -43,19 +43,29 @@ class GlbNode:
     emission: float = 0.0  # how strongly it glows in its own colour
     unlit: bool = False  # its colours carry their light
     double_sided: bool = False
+    extras: dict[str, Any] | None = None  # of the glTF node: JSON-like values that viewers hand on
 
 
-def object_nodes(objects: Sequence[SceneObject]) -> list[GlbNode]:
-    """The objects as nodes: each named by its label and a number, with a primitive for each of its materials."""
+def object_nodes(objects: Sequence[SceneObject], rooms: Sequence[str] = ()) -> list[GlbNode]:
+    """The objects as nodes, each with a primitive for each of its materials.
+
+    Args:
+      objects: a node is named by its object's id, or by label and a number where that is empty. Its extras hold `id`, `label`,
+        `support`, `face_object` (the object's index, as in `Mesh.face_object`) and `room`.
+      rooms: the ids of the plan's rooms; without them `room` is the room's index.
+    """
     nodes: list[GlbNode] = []
     seen: dict[str, int] = {}
-    for thing in objects:
+    for index, thing in enumerate(objects):
         seen[thing.label] = seen.get(thing.label, 0) + 1
-        nodes += [_slot_node(thing, slot, f"{thing.label} {seen[thing.label]}") for slot in range(len(thing.slots))]
+        name = thing.id or f"{thing.label} {seen[thing.label]}"
+        room = rooms[thing.room] if rooms else thing.room
+        extras = {"id": name, "label": thing.label, "room": room, "support": thing.support, "face_object": index}
+        nodes += [_slot_node(thing, slot, name, extras) for slot in range(len(thing.slots))]
     return nodes
 
 
-def _slot_node(thing: SceneObject, slot: int, name: str) -> GlbNode:
+def _slot_node(thing: SceneObject, slot: int, name: str, extras: dict[str, Any]) -> GlbNode:
     """The faces of one material, in their texture where they have one and else in one colour."""
     mine = thing.face_slot == slot
     texture = thing.texture
@@ -69,7 +79,7 @@ def _slot_node(thing: SceneObject, slot: int, name: str) -> GlbNode:
         vertex, uv, image = corners[:, 0].astype(np.int64), corners[:, 1:], texture.image
     return GlbNode(
         name=name, vertices=thing.vertices[vertex], faces=index.reshape(-1, 3), uv=uv, texture=image, base_color=base_color,
-        emission=float(thing.emission[slot]), double_sided=True,
+        emission=float(thing.emission[slot]), double_sided=True, extras=extras,
     )  # fmt: skip
 
 
@@ -124,6 +134,7 @@ class _Document:
         self.materials: list[dict[str, Any]] = []
         self.images: list[dict[str, Any]] = []
         self.meshes: dict[str, dict[str, Any]] = {}  # by node name
+        self.extras: dict[str, dict[str, Any]] = {}  # likewise, of the nodes that have some
         self.extensions: set[str] = set()
         self._textures: dict[int, int] = {}  # id of an array the caller holds -> image
         self._held: list[np.ndarray] = []
@@ -141,6 +152,8 @@ class _Document:
         }
         mesh = self.meshes.setdefault(node.name, {"name": node.name, "primitives": []})
         mesh["primitives"].append(primitive)
+        if node.extras:
+            self.extras[node.name] = {"extras": node.extras}
 
     def _view(self, data: bytes, target: int | None = None) -> int:
         self.binary.extend(b"\0" * (-len(self.binary) % 4))
@@ -205,7 +218,7 @@ class _Document:
         if meshes:
             self.binary.extend(b"\0" * (-len(self.binary) % 4))
             document |= {
-                "nodes": [{"name": mesh["name"], "mesh": k} for k, mesh in enumerate(meshes)],
+                "nodes": [{"name": name, "mesh": k, **self.extras.get(name, {})} for k, name in enumerate(self.meshes)],
                 "meshes": meshes,
                 "materials": self.materials,
                 "accessors": self.accessors,

@@ -5,6 +5,7 @@
     doors    from one wall face to the other, sill to head                   -> FLOOR under the door, REVEAL
     windows  from the inner face to the pane and from the outer face to it   -> REVEAL and PANE; EXTERIOR
              (what is left between is the glass)
+    entrances  the same, and what is left between is the closed leaf         -> FLOOR, REVEAL; EXTERIOR
 
 Everything is subtracted from the block, so every triangle lies on one labelled plane of one solid and normals point into free
 air. A cutter that stops short of a wall's face by 1e-12 m leaves a film, and one that runs on into the room has its floor in the
@@ -29,6 +30,7 @@ from wm.types import OUTSIDE, Mesh, SurfaceKind
 
 SLAB = 0.15  # metres of floor and ceiling slab
 PANE = 0.02  # metres of glass
+LEAF = 0.04  # metres of a closed entrance door
 OVERSHOOT = 0.02  # metres by which an opening runs on beyond the face of a wall
 INSET = 0.005  # metres by which it narrows on the way
 
@@ -109,7 +111,7 @@ def _rooms(plan: FloorPlan) -> list[LabelledSolid]:
 def _openings(plan: FloorPlan) -> list[LabelledSolid]:
     solids = []
     for portal in portals(plan):
-        solids.extend(_window(portal) if portal.kind == "window" else [_door(portal)])
+        solids.extend([_door(portal)] if portal.is_way else _closed(portal))
     return solids
 
 
@@ -121,17 +123,25 @@ def _door(portal: Portal) -> LabelledSolid:
     return tunnel(_sections(portal, steps), bottom=floor, side=reveal, first=reveal, last=reveal)
 
 
-def _window(portal: Portal) -> list[LabelledSolid]:
-    """The recess in the room and the recess outside, with the pane between them."""
+def _closed(portal: Portal) -> list[LabelledSolid]:
+    """The recess in the room and the recess outside, with the pane of a window or the leaf of an entrance between them."""
     first, last = -portal.half_depths[0], portal.half_depths[1]
-    glass = min(PANE, (last - first) / 4) / 2
-    reveal, pane = _label(portal.rooms[0], SurfaceKind.REVEAL), _label(portal.rooms[0], SurfaceKind.PANE)
-    inside = _sections(portal, [(first - OVERSHOOT, INSET), (first, 0.0), (-glass, 0.0)])
-    outside = _sections(portal, [(glass, 0.0), (last, 0.0), (last + OVERSHOOT, INSET)])
+    half = _barrier(portal) / 2
+    window = portal.kind == "window"
+    reveal, pane, floor = (_label(portal.rooms[0], kind) for kind in (SurfaceKind.REVEAL, SurfaceKind.PANE, SurfaceKind.FLOOR))
+    inside = _sections(portal, [(first - OVERSHOOT, INSET), (first, 0.0), (-half, 0.0)])
+    outside = _sections(portal, [(half, 0.0), (last, 0.0), (last + OVERSHOOT, INSET)])
     return [
-        tunnel(inside, bottom=reveal, side=reveal, first=reveal, last=pane),
+        tunnel(inside, bottom=reveal if window else floor, side=reveal, first=reveal, last=pane if window else reveal),
         tunnel(outside, bottom=_SKIN, side=_SKIN, first=_SKIN, last=_SKIN),
     ]
+
+
+def _barrier(portal: Portal) -> float:
+    """Metres of what closes an opening: glass or a door's leaf, 0 of a way."""
+    if portal.is_way:
+        return 0.0
+    return min(PANE if portal.kind == "window" else LEAF, sum(portal.half_depths) / 4)
 
 
 def _sections(portal: Portal, steps: list[tuple[float, float]]) -> np.ndarray:
@@ -153,9 +163,7 @@ def _check_volume(plan: FloorPlan, vertices, faces, blocks: list[LabelledSolid],
     """The kernel can fail without an error, so the volume of its result is compared with the plan's."""
     expected = sum(solid.volume for solid in blocks) - sum(solid.volume for solid in rooms)
     for portal in portals(plan):
-        depth = sum(portal.half_depths)
-        glass = min(PANE, depth / 4) if portal.kind == "window" else 0.0
-        expected -= portal.width * (portal.head - portal.sill) * (depth - glass)
+        expected -= portal.width * (portal.head - portal.sill) * (sum(portal.half_depths) - _barrier(portal))
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     volume = float(np.sum(a * np.cross(b, c))) / 6
     # Where shared walls are not quite parallel (within SHARED), a door's depth is a mean, and less than 1e-4 m^3 wrong.

@@ -2,7 +2,8 @@
 
 A cell is free if its centre lies on a room's floor or in a door or passage, and not on an object that stands on the floor. Only
 centres are tested, so a wall askew to the grid closes no door of more than two cells. A body of radius r fits where its
-centre is r away from every wall and object: exact, in the plane, before anything is rasterized.
+centre is r away from every wall and object. Where it gets to is decided in the plane, without a grid: whether it passes a door
+depends on the door's width and not on where the cells fall.
 Source: WorldMesh, supplement, "Navigability" (0.15 m, largest 4-connected component); the body is ours.
 """
 
@@ -25,6 +26,8 @@ from wm.types import Mesh, SceneObject
 
 _OVERLAP = 0.01
 """Metres by which a passage reaches into either room, so that floors and passages are one area."""
+_FIT = 1e-4
+"""Metres by which a body gives way, so that it passes a door of exactly its width."""
 _DEFAULTS = NavigationSettings()
 
 
@@ -33,7 +36,7 @@ class Navigability:
     """The occupancy grid and its verdict. Cell (j, i) has its centre at origin + cell * (i + 0.5, j + 0.5)."""
 
     share: float  # of the free cells, in the largest 4-connected component; 0 where no cell is free
-    share_body: float  # the same for the cells in which a body of `body_radius` fits
+    share_body: float  # of the area in which the centre of a body of `body_radius` can be, in its largest connected piece
     free: np.ndarray  # [gy, gx] bool
     component: np.ndarray  # [gy, gx] int32: 0 where not free, else 1, 2 ... from the largest component to the smallest
     origin: np.ndarray  # [2] float64, metres
@@ -53,14 +56,20 @@ def navigability(plan: FloorPlan, objects: Sequence[SceneObject], settings: Navi
     columns, rows = (int(n) for n in np.ceil((high - low) / settings.cell))
     free = cells_inside(area, low, settings.cell, (rows, columns))
     component, share = _components(free)
-    _, share_body = _components(cells_inside(area.buffer(-settings.body_radius), low, settings.cell, (rows, columns)))
+    share_body = _largest_share(area.buffer(_FIT - settings.body_radius))
     return Navigability(share=share, share_body=share_body, free=free, component=component, origin=low, cell=settings.cell)
+
+
+def _largest_share(area: BaseGeometry) -> float:
+    """The share of an area that its largest connected piece has; 0 of none."""
+    pieces = shapely.area(shapely.get_parts(area))
+    return float(pieces.max() / pieces.sum()) if pieces.sum() > 0 else 0.0
 
 
 def walkable_floor(plan: FloorPlan) -> BaseGeometry:
     """The floors of all rooms and of the doors and passages between them."""
     floors = [interior_polygon(plan, index) for index in range(len(plan.rooms))]
-    return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.kind != "window")])
+    return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.is_way)])
 
 
 def outlines(things: Iterable[Float[np.ndarray, "_ 3 3"]], low: float, high: float) -> BaseGeometry:

@@ -34,7 +34,9 @@ class Occupancy:
         self._inner = site.polygon.buffer(-CLEARANCE, join_style="mitre")
         shapely.prepare(self._room)
         shapely.prepare(self._inner)
-        self._standing = site.polygon.buffer(-BODY)
+        own = [taken.outline for taken in site.taken if in_the_way(taken.low, taken.high)]
+        bare = site.polygon.difference(shapely.union_all(own)) if own else site.polygon
+        self._standing = bare.buffer(-BODY)
         self._together = _reached(self._standing, site.probes)
 
     def add(self, box: UprightBox) -> None:
@@ -55,6 +57,8 @@ class Occupancy:
             return False
         footprint = box.footprint
         if box.z < -TOLERANCE or box.top > self.site.ceiling + TOLERANCE or not self._room.covers(footprint):
+            return False
+        if any(own.low < box.top and own.high > box.z and own.outline.intersects(footprint) for own in self.site.taken):
             return False
         if len(self.blockers(box, TOLERANCE if exactly else -CLEARANCE)):
             return False

@@ -2,6 +2,9 @@
 
     records        FloorPlan, Room, Opening, and the violations of a plan
     layout_json    layout text to records, every syntax fault named
+    object_json    furniture that a plan lists itself
+    units          lengths of other units to metres, and other words for openings
+    snapping       walls that nearly touch, made to touch
     rules          how rooms fit together, every broken rule named
     loading        load_plan, parse_plan, plan_to_json
     walls          the straight walls and the rooms behind them

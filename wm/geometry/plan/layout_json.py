@@ -2,15 +2,19 @@
 
 import json
 import re
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, Room, Violation
+from wm.geometry.plan.object_json import object_json, read_objects
+from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, PlanObject, Room, Violation
+from wm.geometry.plan.units import METRES, OPENINGS, metres_per, opening_kind, unread
 
 MAX_BYTES = 8 * 2**20
 MAX_ROOMS = 2048
-MAX_POINTS = 128  # per polygon
+MAX_POINTS = 512  # per polygon
 MAX_OPENINGS = 64  # per room
 MAX_COORDINATE = 1e4  # metres
 CEILING = (1.8, 50.0)  # metres: nobody can stand under a lower ceiling
@@ -18,7 +22,7 @@ WALL = (0.05, 1.0)
 WINDOW_SILL = 0.9  # where a window does not say
 # Ids become folder names (views/<room>/), so they hold no character that means something in a path.
 _ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
-_KINDS = ("door", "window", "passage")
+_MOST_NOTES = 20
 # Least and greatest width and height, metres; a body of 0.25 m radius must pass a door.
 _SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
 
@@ -51,7 +55,7 @@ def encode(plan: FloorPlan) -> str:
             "default_ceiling_height": plan.default_ceiling_height,
         },
         "rooms": [_room_json(room) for room in plan.rooms],
-        "objects": [],
+        "objects": [object_json(thing) for thing in plan.objects],
     }
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -81,6 +85,8 @@ class Reader:
 
     def __init__(self) -> None:
         self.violations: list[Violation] = []
+        self.notes: list[str] = []  # a sentence for each thing that is not read
+        self.scale = 1.0  # metres per unit of the document
         self.rooms_missing = False  # rooms are in the document that could not be read
         self.openings_missing = False  # openings likewise
 
@@ -89,7 +95,8 @@ class Reader:
         if not isinstance(document, dict):
             self._fault(None, "type", f"a plan is a JSON object, not {_kind(document)}")
             return None
-        wall, ceiling = self._metadata(document.get("metadata", {}))
+        self._note_unread(document, "plan", "the plan")
+        wall, ceiling = self._metadata(_given(document, "metadata", {}))
         rooms = document.get("rooms")
         if not isinstance(rooms, list):
             found = "missing" if rooms is None else f"{_kind(rooms)}"
@@ -106,16 +113,32 @@ class Reader:
         self.rooms_missing = len(good) < len(read)
         return FloorPlan(good, wall, ceiling) if good else None
 
+    def objects(self, document: dict[str, Any], rooms: Sequence[Room], folder: Path | None) -> tuple[PlanObject, ...]:
+        """The furniture that the document lists, in these rooms; relative mesh files lie in `folder`."""
+        things, faults, notes = read_objects(_given(document, "objects", []), rooms, scale=self.scale, folder=folder)
+        self.violations += faults
+        self.notes += notes[:_MOST_NOTES]
+        return things
+
     def _fault(self, room: str | None, rule: str, message: str) -> None:
         self.violations.append(Violation(room, rule, message))
+
+    def _note_unread(self, holder: dict[str, Any], of: str, where: str) -> None:
+        keys = unread(holder, of)
+        if keys and len(self.notes) < _MOST_NOTES:
+            self.notes.append(f"{where} says {', '.join(keys[:8])}, which is not read")
 
     def _metadata(self, metadata: Any) -> tuple[float, float]:
         if not isinstance(metadata, dict):
             self._fault(None, "type", f"'metadata' must be an object, not {_kind(metadata)}")
             return WALL_THICKNESS, CEILING_HEIGHT
-        for key, wanted in (("units", "meters"), ("coordinate_system", "z_up")):
-            if metadata.get(key, wanted) != wanted:
-                self._fault(None, "units", f"metadata.{key} is {_show(metadata[key])}; only {wanted!r} is understood")
+        self._note_unread(metadata, "metadata", "metadata")
+        units, system = _given(metadata, "units", "meters"), _given(metadata, "coordinate_system", "z_up")
+        if metres_per(units) is None:
+            self._fault(None, "units", f"metadata.units is {_show(units)}; choices: {', '.join(METRES)}")
+        self.scale = metres_per(units) or 1.0
+        if system != "z_up":
+            self._fault(None, "units", f"metadata.coordinate_system is {_show(system)}; only 'z_up' is understood")
         wall = self._number(None, metadata, "metadata.wall_thickness", WALL_THICKNESS, *WALL)
         ceiling = self._number(None, metadata, "metadata.default_ceiling_height", CEILING_HEIGHT, *CEILING)
         return (WALL_THICKNESS if wall is None else wall), (CEILING_HEIGHT if ceiling is None else ceiling)
@@ -134,13 +157,14 @@ class Reader:
                 "room_id",
                 f"'id' is {_show(room_id)}; it must be 1 to 64 of a-z, A-Z, 0-9, _ and -, a letter or digit first",
             )
-        title = value.get("name", room_id)
+        self._note_unread(value, "room", f"room {name}")
+        title = _given(value, "name", room_id)
         if not isinstance(title, str) or len(title) > 200 or not title.isprintable():
             self._fault(name, "type", f"'name' is {_show(title)}; it must be one line of at most 200 printable characters")
             title = name
         height = self._number(name, value, "ceiling_height", ceiling, *CEILING)
         polygon = self._points(name, value.get("floor_polygon"), "floor_polygon", 3, MAX_POINTS)
-        openings = value.get("openings", [])
+        openings = _given(value, "openings", [])
         if not isinstance(openings, list) or len(openings) > MAX_OPENINGS:
             found = f"{len(openings)} long" if isinstance(openings, list) else _kind(openings)
             self._fault(name, "type", f"'openings' is {found}; it must be a list of at most {MAX_OPENINGS}")
@@ -159,15 +183,17 @@ class Reader:
         if not isinstance(value, dict):
             self._fault(room, "type", f"{name} is {_kind(value)}; an opening is an object")
             return None
-        kind = value.get("type")
-        if kind not in _KINDS:
-            self._fault(room, "opening_type", f"{name}.type is {_show(kind)}; choices: {', '.join(_KINDS)}")
+        self._note_unread(value, "opening", f"room {room}, {name},")
+        kind = opening_kind(value.get("type"))
+        if kind is None:
+            self._fault(room, "opening_type", f"{name}.type is {_show(value.get('type'))}; choices: {', '.join(OPENINGS)}")
             return None
         segment = self._points(room, value.get("wall_segment"), f"{name}.wall_segment", 2, 2)
         least_width, least_height = _SIZES[kind]
         position = self._number(room, value, f"{name}.position", None, 0.0, MAX_COORDINATE)
-        width = self._number(room, value, f"{name}.width", None, least_width, 100.0)
-        height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1])
+        why = "" if kind == "window" else ", so that a person gets through"
+        width = self._number(room, value, f"{name}.width", None, least_width, 100.0, why)
+        height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1], why)
         sill = self._number(
             room,
             value,
@@ -183,17 +209,21 @@ class Reader:
             return None
         return Opening(kind, segment, position, width, height, sill)
 
-    def _number(self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float) -> float | None:
-        value = holder.get(path.rsplit(".", 1)[-1], default)
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            found = "missing" if value is None else _show(value)
-            self._fault(room, "type", f"{path} is {found}; it must be a number of metres")
+    def _number(
+        self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float, why: str = ""
+    ) -> float | None:
+        value = _given(holder, path.rsplit(".", 1)[-1], None)
+        if value is None and default is not None:
+            return default
+        if value is None or not _is_number(value):
+            self._fault(room, "type", f"{path} is {'missing' if value is None else _show(value)}; it must be a number of metres")
             return None
-        if not low <= value <= high:  # also false for infinities
+        if not low <= value * self.scale <= high:  # also false for infinities
             wanted = f"{low:g}" if low == high else f"between {low:g} and {high:g}"
-            self._fault(room, "number", f"{path} is {_show(value)}; it must be {wanted} (metres)")
+            found = _show(value) if self.scale == 1 else f"{_show(value)} ({value * self.scale:.4g} m)"
+            self._fault(room, "number", f"{path} is {found}; it must be {wanted} (metres){why}")
             return None
-        return float(value)
+        return float(value) * self.scale
 
     def _points(self, room: str, value: Any, path: str, least: int, most: int) -> np.ndarray | None:
         """[k, 2] of a list of [x, y]; one violation for the first fault."""
@@ -206,12 +236,12 @@ class Reader:
             if not isinstance(point, list) or len(point) != 2 or not all(_is_number(x) for x in point):
                 self._fault(room, "type", f"{path}[{k}] is {_show(point)}; a point is two numbers [x, y]")
                 return None
-            if not all(abs(x) <= MAX_COORDINATE for x in point):
+            if not all(abs(x * self.scale) <= MAX_COORDINATE for x in point):
                 self._fault(
                     room, "number", f"{path}[{k}] is {_show(point)}; coordinates are finite and within {MAX_COORDINATE:g} m"
                 )
                 return None
-        return np.array(value, dtype=np.float64)
+        return np.array(value, dtype=np.float64) * self.scale
 
 
 def _counter_clockwise(points: np.ndarray) -> np.ndarray:
@@ -221,6 +251,12 @@ def _counter_clockwise(points: np.ndarray) -> np.ndarray:
     x, y = points.T
     area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
     return points[::-1].copy() if area < 0 else points
+
+
+def _given(holder: dict[str, Any], key: str, default: Any) -> Any:
+    """The value of a key; the default where it is left out or null, as language models write what they leave out."""
+    value = holder.get(key)
+    return default if value is None else value
 
 
 def _is_number(value: Any) -> bool:

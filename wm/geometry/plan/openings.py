@@ -19,7 +19,7 @@ def portals(plan: FloorPlan) -> tuple[Portal, ...]:
     """Every opening of the plan once, in the order in which rooms list them.
 
     Raises:
-      PlanError: an opening is not on its wall, a door leads nowhere, or a window looks into a room.
+      PlanError: an opening is not on its wall, a door leads along several rooms, or a window looks into a room.
     """
     placed, violations = place_openings(plan)
     if violations:
@@ -81,13 +81,15 @@ def _place(k: int, opening: Opening, walls: tuple[Wall, ...]) -> Portal | tuple[
     else:
         return "opening_off_wall", f"{name} is not on a wall of the room: its ends are {_point(ends[0])} and {_point(ends[1])}"
     behind = next((b for b in wall.behind if b.low - SHARED <= low and high <= b.high + SHARED), None)
+    touched = any(b.low + SHARED < high and low + SHARED < b.high for b in wall.behind)
     if opening.kind == "window":
-        touched = next((b for b in wall.behind if b.low + SHARED < high and low + SHARED < b.high), None)
-        if touched is not None:
+        if touched:
             return "window_interior", f"{name} looks into another room; windows belong on exterior walls"
-    elif behind is None:
-        return "door_exterior", f"{name} does not lead into one other room; it must lie on a wall shared with one"
-    behind = behind if opening.kind != "window" else None
+        behind = None
+    elif behind is None and touched:
+        return "door_exterior", f"{name} does not lead into one other room; keep it within the wall shared with one"
+    elif behind is None and opening.kind == "passage":
+        return "door_exterior", f"{name} leads outside; make it a door, which is closed, or put it on a wall shared with a room"
     return Portal(opening=opening, index=k, wall=wall, low=low, high=high, behind=behind)
 
 

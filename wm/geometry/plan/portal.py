@@ -26,12 +26,17 @@ class Portal:
     wall: Wall  # of that room
     low: float  # metres along that wall
     high: float
-    behind: Behind | None  # the stretch of shared wall that holds the opening; None for a window
+    behind: Behind | None  # the stretch of shared wall that holds the opening; None where it leads outside
 
     @property
     def kind(self) -> str:
         """door | window | passage"""
         return self.opening.kind
+
+    @property
+    def is_way(self) -> bool:
+        """Whether it joins two rooms. A window does not, nor does an entrance: a door in an exterior wall, which is closed."""
+        return self.behind is not None
 
     @property
     def sill(self) -> float:
@@ -45,7 +50,7 @@ class Portal:
 
     @functools.cached_property
     def rooms(self) -> tuple[int, int]:
-        """(a, b) indices into the plan's rooms, a < b; b is OUTSIDE for a window."""
+        """(a, b) indices into the plan's rooms, a < b; b is OUTSIDE for a window or an entrance."""
         if self.behind is None:
             return self.wall.room, OUTSIDE
         return min(self.wall.room, self.behind.room), max(self.wall.room, self.behind.room)

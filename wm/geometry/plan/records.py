@@ -35,6 +35,20 @@ class Room:
     openings: tuple[Opening, ...]
 
 
+@dataclasses.dataclass(frozen=True)
+class PlanObject:
+    """One piece of furniture that the plan itself lists; it stands where the plan says."""
+
+    label: str
+    room: int  # index into FloorPlan.rooms
+    position: tuple[float, ...]  # x, y, z of the middle of its foot, metres
+    yaw: float  # degrees, counter-clockwise from above; at 0 the front looks along -y
+    size: tuple[float, ...] | None  # width, depth, height, metres; None: that of the mesh
+    mesh: str | None  # a mesh file; None: a box
+    support: str | None = None  # as SceneObject.support; None: told by label and size
+    color: tuple[float, ...] | None = None  # sRGB in [0, 1], of a box
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class FloorPlan:
     """Rooms that touch along their walls. Two plans are equal when their JSON is (`plan_to_json`)."""
@@ -42,6 +56,7 @@ class FloorPlan:
     rooms: tuple[Room, ...]
     wall_thickness: float = WALL_THICKNESS  # of an exterior wall, and of a shared one (half of it in either room)
     default_ceiling_height: float = CEILING_HEIGHT
+    objects: tuple[PlanObject, ...] = ()  # furniture of the user's own
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,6 +70,10 @@ class Violation:
     def __str__(self) -> str:
         where = "plan" if self.room is None else f"room {self.room}"
         return f"{where}: {self.rule}: {self.message}"
+
+
+class PlanWarning(UserWarning):
+    """What a plan says and is not read, or what was changed in it."""
 
 
 class PlanError(InputError):

@@ -18,6 +18,7 @@ from wm.geometry.plan.walls import SHARED, room_polygons
 LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius, a little more than a body, to be entered
 LEAST_AREA = 0.01  # square metres: a polygon of less counts as having no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
+_ADVICE = "; put one on a wall that it shares"
 MOST_OVERLAPS = 256  # more are not listed, and no other rule is checked then
 
 RULES = {
@@ -31,13 +32,14 @@ RULES = {
     "room_id": "Ids are 1 to 64 ASCII letters, digits, _ and -: they become folder names.",
     "duplicate_id": "No two rooms have one id, case aside.",
     "opening_type": "An opening is a door, a window or a passage.",
+    "object": "Furniture that the plan lists has a label, stands in a room, and has a size that fits or a mesh file.",
     "self_intersection": "A room's polygon does not cross or touch itself.",
     "zero_area": "A room's polygon has an area.",
     "room_too_small": "Inside its walls a room is one piece that holds a disk of 0.3 m radius.",
     "rooms_overlap": "Rooms touch at most, within 0.01 m.",
     "opening_off_wall": "An opening lies on a wall of its room, between the corners inside and below the ceiling.",
     "openings_overlap": "Openings keep 0.01 m of wall between them; the two entries of one door agree.",
-    "door_exterior": "Doors and passages lead into exactly one other room.",
+    "door_exterior": "Doors and passages lead into exactly one other room, or doors to the outside.",
     "window_interior": "Windows look outside.",
     "unreachable": "Every room can be reached from every other through doors and passages.",
 }
@@ -66,7 +68,7 @@ def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing
     portals, misplaced = place_openings(plan, unknown)
     violations += [*_cramped(plan), *misplaced]
     violations += [fault for portal in portals if (fault := _squeezed(plan, portal)) is not None]
-    violations += _blind_windows(plan, portals)
+    violations += _blocked(plan, portals)
     if unknown is None and not openings_missing:
         violations += _unreachable(plan, portals)
     return tuple(violations)
@@ -112,13 +114,25 @@ def _overlaps(plan: FloorPlan) -> list[Violation]:
     tree = shapely.STRtree(cores)
     violations = []
     for a, core in enumerate(cores):
-        for b in np.sort(tree.query(core, predicate="intersects")):
+        for b in np.sort(tree.query(core, predicate="intersects")).tolist():
             if b > a:
-                area = polygons[a].intersection(polygons[b]).area
-                violations.append(Violation(plan.rooms[a].id, "rooms_overlap", f"overlaps {plan.rooms[b].id} by {area:.3g} m^2"))
+                violations.append(Violation(plan.rooms[a].id, "rooms_overlap", _overlap(plan, a, b, polygons)))
             if len(violations) == MOST_OVERLAPS:
                 return violations
     return violations
+
+
+def _overlap(plan: FloorPlan, a: int, b: int, polygons: np.ndarray) -> str:
+    """By how much two rooms overlap, and what would be right."""
+    area = polygons[a].intersection(polygons[b]).area
+    small, large = sorted((polygons[a].area, polygons[b].area))
+    inner, outer = (a, b) if polygons[a].area <= polygons[b].area else (b, a)
+    advice = "; move the wall between them"
+    if area > 0.99 * large:
+        advice = "; a plan has one storey: give each its own plan"
+    elif area > 0.99 * small:
+        advice = f"; cut {plan.rooms[inner].id} out of the floor_polygon of {plan.rooms[outer].id}, which may need two rooms"
+    return f"overlaps {plan.rooms[b].id} by {area:.3g} m^2{advice}"
 
 
 def _cramped(plan: FloorPlan) -> list[Violation]:
@@ -147,23 +161,43 @@ def _squeezed(plan: FloorPlan, portal: Portal) -> Violation | None:
         away = 1.0 if side == listing else -1.0
         before = _strip(portal, face + away * SHARED, face + away * 2 * SHARED)
         if floor is not None and before.difference(floor).area > 1e-6:
-            message = f"{name} reaches into a corner of {other.id}; keep it between the inner faces of the walls beside it"
+            message = f"{name} reaches into a corner of {other.id}; {_free_stretch(portal, floor, face + 1.5 * away * SHARED)}"
             return Violation(room.id, "opening_off_wall", message)
     return None
 
 
-def _blind_windows(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
-    windows = [portal for portal in portals if portal.behind is None]
+def _free_stretch(portal: Portal, floor: shapely.Polygon, inside: float) -> str:
+    """Where on its segment an opening could lie: the free stretch of the wall's face that it overlaps most."""
+    wall, opening = portal.wall, portal.opening
+    ends = wall.start + np.array([[0.0], [wall.length]]) * wall.direction + inside * wall.normal
+    free = shapely.get_parts(floor.intersection(shapely.LineString(ends)))
+    parts = [np.asarray(part.coords) for part in free if part.length > 0]
+    along = (opening.segment[1] - opening.segment[0]) / np.linalg.norm(opening.segment[1] - opening.segment[0])
+    spans = [sorted(((part - opening.segment[0]) @ along).tolist()) for part in parts]
+    if not spans:
+        return "no part of that wall's face is free"
+    here, there = opening.position, opening.position + opening.width
+    low, high = max(spans, key=lambda span: min(span[1], there) - max(span[0], here))
+    return f"between the inner faces of the walls beside it there is room from {low:.3g} to {high:.3g} m of its wall_segment"
+
+
+def _blocked(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
+    """Windows and entrances with a room close before them."""
     tree = shapely.STRtree(room_polygons(plan))
     violations = []
-    for portal in windows:
+    for portal in portals:
+        if portal.is_way:
+            continue
         room = plan.rooms[portal.wall.room]
         view = _strip(portal, -OUTLOOK, -SHARED).buffer(-SHARED / 4, join_style="mitre")
         blocking = sorted(plan.rooms[k].id for k in tree.query(view, predicate="intersects"))
         if blocking:
-            name = describe(portal.opening, portal.index)
-            message = f"{name} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; windows look outside"
-            violations.append(Violation(room.id, "window_interior", message))
+            message = f"{describe(portal.opening, portal.index)} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; "
+            if portal.kind == "window":
+                violations.append(Violation(room.id, "window_interior", message + "windows look outside"))
+            else:
+                advice = "rooms that a door joins share one line, the middle of the wall: close the gap between their polygons"
+                violations.append(Violation(room.id, "door_exterior", message + advice))
     return violations
 
 
@@ -194,7 +228,7 @@ def _unreachable(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation
     sizes = np.bincount(component, minlength=len(plan.rooms))
     main = int(np.argmax(sizes))
     return [
-        Violation(room.id, "unreachable", f"no doors or passages lead to it from {plan.rooms[main].id}")
+        Violation(room.id, "unreachable", f"no doors or passages lead to it from {plan.rooms[main].id}{_ADVICE}")
         for room, part in zip(plan.rooms, component)
         if part != main
     ]

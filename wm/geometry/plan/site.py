@@ -2,13 +2,16 @@
 
 import dataclasses
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
+from wm.types import SceneObject
 
 DOOR_DEPTH = 0.9
 """Metres of floor kept clear before a door or a passage."""
@@ -43,6 +46,15 @@ def wall_opening(
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class Taken:
+    """Room that something takes up which stands before a room is furnished."""
+
+    outline: BaseGeometry  # from above
+    low: float  # metres above the floor
+    high: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Site:
     """One room."""
 
@@ -56,6 +68,7 @@ class Site:
     keep: tuple[shapely.Polygon, ...]  # zones before doors and passages
     probes: np.ndarray  # [d, 2]: a standing place before each door and passage
     centre: tuple[float, float]  # the point of the floor farthest from the walls
+    taken: tuple[Taken, ...] = ()  # what stands there already, of the user's own
 
 
 def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str, np.ndarray, float, float]]) -> Site:
@@ -91,8 +104,12 @@ def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str
     )  # fmt: skip
 
 
-def room_site(plan: FloorPlan, room: int) -> Site:
-    """The site of a plan's room, its openings on the walls' inner faces."""
+def room_site(plan: FloorPlan, room: int, things: Sequence[SceneObject] = ()) -> Site:
+    """The site of a plan's room, its openings on the walls' inner faces.
+
+    Args:
+      things: what stands in the plan's rooms already; of flat things nothing has to keep clear.
+    """
     openings = []
     for portal in portals(plan):
         if room not in portal.rooms:
@@ -101,7 +118,10 @@ def room_site(plan: FloorPlan, room: int) -> Site:
         inward = -portal.normal if side == 0 else portal.normal
         ends = np.asarray(portal.ends) + portal.half_depths[side] * inward
         openings.append((portal.kind, ends, portal.sill, portal.head))
-    return make_site(interior_polygon(plan, room), plan.rooms[room].ceiling_height, openings)
+    site = make_site(interior_polygon(plan, room), plan.rooms[room].ceiling_height, openings)
+    mine = (thing.vertices for thing in things if thing.room == room and thing.support != "flat")
+    taken = tuple(Taken(shapely.MultiPoint(v[:, :2]).convex_hull, float(v[:, 2].min()), float(v[:, 2].max())) for v in mine)
+    return dataclasses.replace(site, taken=taken) if taken else site
 
 
 def nearest_wall(ends: np.ndarray, starts: np.ndarray, directions: np.ndarray, normals: np.ndarray, lengths: np.ndarray) -> int:

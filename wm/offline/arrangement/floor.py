@@ -15,7 +15,7 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 from skimage.measure import label
 
-from wm.geometry.placement.clearances import BODY
+from wm.geometry.placement.clearances import BODY, in_the_way
 from wm.geometry.plan.site import Site
 from wm.schema import NavigationSettings
 
@@ -53,15 +53,20 @@ class Floor:
 
 
 class BareFloor:
-    """The floor of an unfurnished room, and what a furnished one is held to: never to more than the bare room has."""
+    """The floor of an unfurnished room, and what a furnished one is held to: never to more than the bare room has.
+
+    What stands there already, of the user's own, is no floor of the bare room.
+    """
 
     def __init__(self, site: Site):
         low = np.array(site.polygon.bounds[:2])
         count = np.ceil((np.array(site.polygon.bounds[2:]) - low) / CELL).astype(int) + 1
         xs, ys = (low[a] + CELL * np.arange(count[a]) for a in (0, 1))
         self.grid = np.stack(np.meshgrid(xs, ys), -1)  # [gy, gx, 2]
-        ways, places = site.polygon.buffer(-WAY), site.polygon.buffer(-BODY)
-        free, standing = (shapely.contains_xy(area, self.grid[..., 0], self.grid[..., 1]) for area in (site.polygon, ways))
+        own = [taken.outline for taken in site.taken if in_the_way(taken.low, taken.high)]
+        bare = site.polygon.difference(shapely.union_all(own)) if own else site.polygon
+        ways, places = bare.buffer(-WAY), bare.buffer(-BODY)
+        free, standing = (shapely.contains_xy(area, self.grid[..., 0], self.grid[..., 1]) for area in (bare, ways))
         self.floor = Floor(open=free, standing=standing, ways=ways, places=places)
         self.joined = min(JOINED, largest_share(free) - 1e-9)
         self.reachable = min(REACHABLE, largest_share(standing) - 1e-9)

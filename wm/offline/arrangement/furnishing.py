@@ -1,5 +1,7 @@
 """Rooms of a plan furnished: what the offline objects backend gives, and what the offline image model draws into empty rooms."""
 
+from collections.abc import Sequence
+
 from wm.geometry.plan.loading import FloorPlan
 from wm.geometry.plan.site import room_site
 from wm.offline.arrangement.arrange import furnish_site, scene_object
@@ -10,12 +12,15 @@ from wm.synth.backends import SceneContext
 from wm.types import SceneObject
 
 
-def furnish_room(plan: FloorPlan, room: int, style: Style, *, seed: int, density: float = 1.0) -> list[SceneObject]:
+def furnish_room(
+    plan: FloorPlan, room: int, style: Style, *, seed: int, density: float = 1.0, around: Sequence[SceneObject] = ()
+) -> list[SceneObject]:
     """The furniture of one room in world space, as the room's name, the style and the seed decide it.
 
     Args:
       room: index into the plan's rooms.
       density: 0..1, the share of the optional pieces that are tried.
+      around: what stands in the rooms already, which the furniture keeps clear of.
 
     Raises:
       ValueError: the density is not a share.
@@ -23,7 +28,7 @@ def furnish_room(plan: FloorPlan, room: int, style: Style, *, seed: int, density
     if not 0.0 <= density <= 1.0:
         raise ValueError(f"furnish.density is {density}; it is the share of the optional pieces, between 0 and 1")
     placed = furnish_site(
-        room_site(plan, room), room_type(plan.rooms[room].name), style, seed=seed, room=room, density=density
+        room_site(plan, room, around), room_type(plan.rooms[room].name), style, seed=seed, room=room, density=density
     )
     return [scene_object(piece, room) for piece in placed]
 

@@ -135,6 +135,8 @@ class Layout:
 
     def clashes(self, footprint: shapely.Polygon, z: float, top: float, who: frozenset[str] = frozenset()) -> bool:
         """Whether something already stands within the clearance of a footprint in its height interval."""
+        if any(own.low < top and own.high > z and own.outline.distance(footprint) < CLEARANCE for own in self.site.taken):
+            return True
         return any(
             other.piece.support != "flat"
             and other.piece.label not in who

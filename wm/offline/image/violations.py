@@ -91,7 +91,7 @@ def _closed(context: SceneContext, view: View, gbuffer: GBuffer, rng: np.random.
     """Closes a doorway of the view's room through which the view looks."""
     doors = []
     for k, portal in enumerate(portals(context.plan)):
-        if portal.kind != "window" and view.room in portal.rooms and _seen_through(portal, view, gbuffer) >= PLAIN:
+        if portal.is_way and view.room in portal.rooms and _seen_through(portal, view, gbuffer) >= PLAIN:
             doors.append(k)
     if not doors:
         return None

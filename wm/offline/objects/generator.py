@@ -5,7 +5,7 @@ import dataclasses
 from wm.bounds import setting
 from wm.offline.arrangement.furnishing import furnish_room
 from wm.offline.style.theme import style_of
-from wm.schema import BackendSettings
+from wm.schema import ObjectsSettings
 from wm.synth.backends import SceneContext
 from wm.types import SceneObject
 
@@ -13,8 +13,8 @@ VERSION = "2"
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
-class Settings(BackendSettings):
-    """The generator has no knobs."""
+class Settings(ObjectsSettings):
+    """The generator has no knobs of its own."""
 
     backend: str = setting(__name__, "The offline generator of furnished rooms.")
 
@@ -32,7 +32,8 @@ class ProceduralObjects:
         Raises:
           ValueError: the density of the context is not between 0 and 1.
         """
-        return furnish_room(context.plan, room, style_of(context.theme), seed=context.seed, density=context.density)
+        style, around = style_of(context.theme), context.objects
+        return furnish_room(context.plan, room, style, seed=context.seed, density=context.density, around=around)
 
 
 def make(settings: Settings, context: SceneContext | None = None) -> ProceduralObjects:

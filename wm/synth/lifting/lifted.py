@@ -25,7 +25,7 @@ from wm.geometry.placement.upright import levelled, transformed
 from wm.geometry.placement.upright_box import box_of
 from wm.geometry.plan.site import Site, room_site
 from wm.geometry.rays.raycast import RayScene, build_ray_scene, cast
-from wm.schema import BackendSettings, CameraSettings
+from wm.schema import CameraSettings, ObjectsSettings
 from wm.synth.backends import (
     Condition,
     DepthBackend,
@@ -57,7 +57,7 @@ USES = ("image", "depth", "segmentation", "reconstruction")
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
-class Settings(BackendSettings):
+class Settings(ObjectsSettings):
     """The images that rooms are lifted from, and what is left out of them."""
 
     backend: str = setting(__name__, "Furniture lifted out of images of each room.")
@@ -174,7 +174,7 @@ def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: 
 def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: Settings) -> LiftedRoom:
     """One room drawn from these cameras, segmented, reconstructed and placed."""
     bare = build_ray_scene(context.structure)
-    site = room_site(context.plan, room)
+    site = room_site(context.plan, room, context.objects)
     drawings = []
     for k, camera in enumerate(cameras):
         seed = _seed(context.seed, room, k)
