@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.artifacts import ArtifactError, digest, identity, open_run_folder, write_atomically
+from wm.artifacts import ArtifactError, RunFolder, digest, file_digest, identity, open_run_folder, write_atomically
+from wm.atomic import TEMPORARY
 from wm.offline.image.painter import Settings as ImageSettings
 from wm.schema import ReportConfig, RunConfig
 
@@ -143,12 +144,13 @@ def test_litter_of_a_killed_run_is_swept(tmp_path):
     with open_run_folder(tmp_path, HEADER):
         pass
     (tmp_path / "views").mkdir()
-    (tmp_path / "views" / ".part-abc.png").write_bytes(b"half")
+    (tmp_path / "views" / f"{TEMPORARY}abcdefgh.png").write_bytes(b"half")
+    (tmp_path / "views" / ".part-abcdefgh.pdf").write_bytes(b"another program's")
     with open_run_folder(tmp_path / "another" / "run", HEADER):
-        at_work = tmp_path / "another" / "run" / ".part-xyz.png"
+        at_work = tmp_path / "another" / "run" / f"{TEMPORARY}xyzxyzxy.png"
         at_work.write_bytes(b"half")
         with open_run_folder(tmp_path, HEADER):
-            assert list(tmp_path.rglob(".part-*")) == [at_work]
+            assert sorted(tmp_path.rglob(".part-*")) == [at_work, tmp_path / "views" / ".part-abcdefgh.pdf"]
 
 
 def test_stale_entries_are_dropped_with_their_files(tmp_path):
@@ -173,9 +175,9 @@ def test_digest_tells_arrays_apart_by_shape_and_type():
 
 
 def test_what_changes_no_result_is_no_part_of_a_key():
-    run = RunConfig()
+    run = RunConfig(image=ImageSettings())
     parts = {"image": ImageSettings(worker=False), "report": ReportConfig(enabled=False)}
-    beside = RunConfig(**parts, output="x", reuse=False, overwrite=True, workers=3, executor="x", debug=True)
-    assert digest(run) == digest(beside) != digest(RunConfig(seed=1))
+    beside = RunConfig(**parts, output="x", reuse=False, overwrite=True, workers=3, executor="x", until="plan", debug=True)
+    assert digest(run) == digest(beside) != digest(RunConfig(image=ImageSettings(), seed=1))
     assert digest(ReportConfig()) != digest(ReportConfig(enabled=False))  # of the report itself it is
     assert "worker" not in identity(run)["image"] and identity(run)["fit"]["steps"] == run.fit.steps

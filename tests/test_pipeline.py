@@ -13,6 +13,7 @@ from wm.meter import StageMeter
 from wm.metric_table import METRICS
 from wm.pipeline import run
 from wm.run import load_config
+from wm.stages.history import read_history
 from wm.stages.run_context import RunContext
 from wm.stages.scene import build_scene
 
@@ -57,7 +58,7 @@ def test_everything_promised_is_there(whole):
     assert json.loads((whole / "metrics.json").read_text())["views"] == len(list((whole / "views").rglob("*.depth.png")))
     assert {"plan", "paint", "reconstruct", "evaluate", "report"} <= set(json.loads((whole / "timings.json").read_text()))
     assert "<svg" in (whole / "report.html").read_text()
-    curve = json.loads((whole / "stages/history.json").read_text())
+    curve = read_history(whole / "stages/history.json")
     assert len(curve) == 2 and all(point[name] is not None for point in curve for name in ("psnr", "m_mae", "n_ang_deg"))
     assert not list(whole.rglob(".part-*"))
 

@@ -52,7 +52,7 @@ def build_scene(run: RunContext) -> Scene:
     """Builds the scene of a run. What the run folder already holds is read from there."""
     with run.stage("plan"):
         plan, plan_key = _plan(run)
-    with run.stage("structure"):
+    with run.stage("structure", stores=False):
         context = bare_context(run.config, plan)
     with run.stage("furnish"):
         objects, key = _furnish(run, context, plan_key)
@@ -83,7 +83,7 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
         # The time that the layout took is not part of the plan's entry, so that equal runs have equal manifests.
         run.folder.write(LAYOUT, json_text(layout))
         run.folder.save("plan", key, {PLAN: plan_to_json(plan)})
-    return parse_plan((run.folder.path / PLAN).read_text(), PLAN), key
+    return parse_plan((run.folder.path / PLAN).read_text(encoding="utf-8"), PLAN), key
 
 
 def _user_file(file: str) -> pathlib.Path:
@@ -112,5 +112,7 @@ def _cameras(run: RunContext, plan: FloorPlan, rays: RayScene) -> tuple[tuple[Vi
     views = tuple(place_cameras(plan, rays, settings))
     heldout = tuple(place_heldout(plan, rays, views, settings))
     frames = codecs.transforms_json(views, [room.id for room in plan.rooms], "splats.ply")
-    run.folder.save("cameras", run.key("cameras", settings, json.dumps(frames)), {CAMERAS: json_text(frames)})
+    key = run.key("cameras", settings, json.dumps(frames))
+    if not run.folder.has("cameras", key):
+        run.folder.save("cameras", key, {CAMERAS: json_text(frames)})
     return views, heldout
