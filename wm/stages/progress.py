@@ -17,13 +17,13 @@ LINE_SECONDS = 30.0
 class Progress(Protocol):
     """What a stage tells of its progress; to be used in a `with`."""
 
-    n: float  # how much is done
+    n: float | int  # how much is done
 
     def __enter__(self) -> "Progress": ...
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None, /) -> None: ...
 
-    def update(self, n: float = 1) -> object:
+    def update(self, n: float | int = 1) -> object:
         """So much more is done."""
         ...
 
@@ -43,7 +43,7 @@ class ProgressLines:
     """Progress as lines for a file or a pipe: one every LINE_SECONDS, and one at the end."""
 
     def __init__(self, name: str, total: int):
-        self.n: float = 0
+        self.n: float | int = 0
         self._name, self._total = name, total
         self._began = self._said = time.monotonic()
 
@@ -54,7 +54,7 @@ class ProgressLines:
         if self._total:
             self._tell()
 
-    def update(self, n: float = 1) -> object:
+    def update(self, n: float | int = 1) -> object:
         self.n += n
         if self.n < self._total and time.monotonic() - self._said > LINE_SECONDS:
             self._tell()
