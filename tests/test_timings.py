@@ -11,8 +11,16 @@ ROW = {"seconds": 2.5, "peak_gib": 1.0}
 
 @pytest.mark.parametrize(
     "row",
-    [{"seconds": float("nan"), "peak_gib": 1}, {"seconds": -1, "peak_gib": 1}, {"seconds": True, "peak_gib": 1}, {"seconds": "1"}, {},
-     {"seconds": 1, "peak_gib": float("inf")}, {"seconds": None, "peak_gib": None}],
+    [
+        {"seconds": float("nan"), "peak_gib": 1},
+        {"seconds": -1, "peak_gib": 1},
+        {"seconds": True, "peak_gib": 1},
+        {"seconds": "1"},
+        {},
+        {"seconds": 1, "peak_gib": float("inf")},
+        {"seconds": None, "peak_gib": None},
+    ],
+)
 def test_a_row_that_is_no_time_is_unknown_and_the_others_are_kept(tmp_path, row):
     (tmp_path / "t.json").write_text(json.dumps({"plan": row, "paint": ROW}))
     assert read_rows(tmp_path / "t.json") == {"plan": UNKNOWN, "paint": ROW}

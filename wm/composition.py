@@ -6,6 +6,7 @@ others, by name and type here, by range in wm.validate. That holds for the folde
 
 import contextlib
 import difflib
+import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -50,10 +51,16 @@ class BackendSource(FileConfigSource):
 
 
 def register() -> None:
-    """Tells Hydra of the schema and of files that select backends. Done once, when this module is imported."""
+    """Tells Hydra of the schema, of files that select backends, and of `wm.folder`, which names the run folder. Done once, when
+    this module is imported."""
     Plugins.instance()  # registers Hydra's own sources first
     SourcesRegistry.instance().types["file"] = BackendSource
     ConfigStore.instance().store(name="run_config", node=_schema())
+    OmegaConf.register_new_resolver("wm.folder", _folder, replace=True)
+
+
+def _folder(output: str | None, default: str) -> str:
+    return default if output is None else os.path.abspath(output)
 
 
 def freeze(composed: Any) -> RunConfig:

@@ -21,7 +21,6 @@ import hydra
 from hydra.core.hydra_config import HydraConfig
 from hydra.errors import HydraException
 from hydra.types import RunMode
-from omegaconf import OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
 from wm import composition, console
@@ -176,11 +175,6 @@ def _say(line: str) -> None:
     console.warn(f"wm: {line}")
 
 
-def _folder(output: str | None, default: str) -> str:
-    return default if output is None else os.path.abspath(output)
-
-
-OmegaConf.register_new_resolver("wm.folder", _folder, replace=True)
 _composed_by_hydra = hydra.main(config_path=str(CONF), config_name="config", version_base="1.3")(_run_one)
 
 
