@@ -16,8 +16,6 @@ SAYS = (
     "from wm import console; console.open_standard_streams(); console.say('12.5\\u00b0 \\u2013 K\\u00fcche'); "
     "console.warn('end'); console.flush()"
 )
-    "from wm import console; console.open_standard_streams(); console.say('12.5\\u00b0 \\u2013 K\\u00fcche'); console.warn('end'); console.flush()"
-)
 
 
 def call(redirection: str = "", **environment: str) -> subprocess.CompletedProcess:

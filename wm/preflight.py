@@ -65,7 +65,7 @@ def _rows(hydra: Hydra, name: str, overrides: list[str]) -> list[PlannedRun]:
         return []
     parameters = [f"{key}={value}" for key, value in (sweep.hydra.sweeper.params or {}).items()]
     parser = OverridesParser.create(config_loader=hydra.config_loader)
-    task = OmegaConf.to_container(sweep.hydra.overrides.task, resolve=False)
+    task: Any = OmegaConf.to_container(sweep.hydra.overrides.task, resolve=False)
     rows = BasicSweeper.split_arguments(parser.parse_overrides([*parameters, *task]), None)[0]
     planned: dict[Path, PlannedRun] = {}
     for number, row in enumerate(rows):
