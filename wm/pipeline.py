@@ -167,8 +167,9 @@ def _summary(context: RunContext, metrics: dict) -> str:
 
 
 def _times(context: RunContext) -> str:
-    """Time and memory of every stage, and in all."""
+    """Time and memory of every stage, in the order of the stages, and in all."""
     meter = context.meter
-    stages: Rows = {**meter.stages, "in all": {"seconds": meter.seconds, "peak_gib": meter.peak_gib}}
+    in_order: Rows = {name: meter.stages[name] for name in STAGES if name in meter.stages}
+    stages: Rows = {**in_order, "in all": {"seconds": meter.seconds, "peak_gib": meter.peak_gib}}
     rows = [(name, *(METRICS[key].text(row[key]) for key in ("seconds", "peak_gib"))) for name, row in stages.items()]
     return tabulate(rows, tablefmt="plain", colalign=("left", "right", "right"), disable_numparse=True)
