@@ -133,6 +133,22 @@ def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(whole, tmp_pa
     assert (tmp_path / "borrowed/layout.json").is_file()
 
 
+def test_until_a_stage_stops_there_and_the_next_run_goes_on(tmp_path, capsys):
+    assert run(load_config([*SMALL, "until=plan"]), tmp_path) == {}
+    assert "stopped after plan; the same command without until=plan goes on" in capsys.readouterr().out
+    plan = (tmp_path / "plan.json").read_bytes()
+    assert not (tmp_path / "objects.json").exists()
+    run(load_config([*SMALL, "until=cameras"]), tmp_path)
+    times = json.loads((tmp_path / "timings.json").read_text())
+    assert set(times) == {"plan", "structure", "furnish", "cameras"} and (tmp_path / "plan.json").read_bytes() == plan
+    (tmp_path / "timings.json").unlink()
+    run(load_config([*SMALL, "until=furnish"]), tmp_path)  # finds all done: it has not taken the time that this takes
+    again = json.loads((tmp_path / "timings.json").read_text())
+    assert again["plan"] == again["furnish"] == {"seconds": None, "peak_gib": None}
+    said = capsys.readouterr().out
+    assert "timings.json: missing or damaged; how long cameras, furnish, plan took is not known any more" in said
+
+
 def test_another_configuration_does_not_share_the_folder(whole):
     before = _bytes(whole)
     with pytest.raises(ArtifactError, match=r"config\.fit\.steps=4 \(this one: 5\)"):
