@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wm.artifacts import ArtifactError, digest, identity, open_run_folder, write_atomically
+from wm.atomic import TEMPORARY
 from wm.offline.image.painter import Settings as ImageSettings
 from wm.schema import ReportConfig, RunConfig
 
@@ -143,12 +144,13 @@ def test_litter_of_a_killed_run_is_swept(tmp_path):
     with open_run_folder(tmp_path, HEADER):
         pass
     (tmp_path / "views").mkdir()
-    (tmp_path / "views" / ".part-abc.png").write_bytes(b"half")
+    (tmp_path / "views" / f"{TEMPORARY}abcdefgh.png").write_bytes(b"half")
+    (tmp_path / "views" / ".part-abcdefgh.pdf").write_bytes(b"another program's")
     with open_run_folder(tmp_path / "another" / "run", HEADER):
-        at_work = tmp_path / "another" / "run" / ".part-xyz.png"
+        at_work = tmp_path / "another" / "run" / f"{TEMPORARY}xyzxyzxy.png"
         at_work.write_bytes(b"half")
         with open_run_folder(tmp_path, HEADER):
-            assert list(tmp_path.rglob(".part-*")) == [at_work]
+            assert sorted(tmp_path.rglob(".part-*")) == [at_work, tmp_path / "views" / ".part-abcdefgh.pdf"]
 
 
 def test_stale_entries_are_dropped_with_their_files(tmp_path):
@@ -175,7 +177,91 @@ def test_digest_tells_arrays_apart_by_shape_and_type():
 def test_what_changes_no_result_is_no_part_of_a_key():
     run = RunConfig(image=ImageSettings())
     parts = {"image": ImageSettings(worker=False), "report": ReportConfig(enabled=False)}
-    beside = RunConfig(**parts, output="x", reuse=False, overwrite=True, workers=3, executor="x", debug=True)
+    beside = RunConfig(**parts, output="x", reuse=False, overwrite=True, workers=3, executor="x", until="plan", debug=True)
     assert digest(run) == digest(beside) != digest(RunConfig(image=ImageSettings(), seed=1))
     assert digest(ReportConfig()) != digest(ReportConfig(enabled=False))  # of the report itself it is
     assert "worker" not in identity(run)["image"] and identity(run)["fit"]["steps"] == run.fit.steps
+
+
+def test_what_is_not_as_it_was_made_is_not_removed(tmp_path):
+    said = []
+    with open_run_folder(tmp_path, HEADER, say=said.append) as folder:
+        folder.save("paint/a", "k", {"views/a.png": b"a"})
+        (tmp_path / "views/a.png").write_bytes(b"touched up by hand")
+        folder.drop_others("paint/", set())
+    assert (tmp_path / "views/a.png").read_bytes() == b"touched up by hand"
+    assert len(said) == 1 and "not as it was made" in said[0]
+
+
+def test_entries_that_nobody_asks_for_are_dropped_with_their_files_and_empty_folders(tmp_path):
+    with open_run_folder(tmp_path, HEADER) as folder:
+        folder.save("plan", "k", {"plan.json": b"{}"})
+        folder.save("evaluate/attic", "k", {"heldout/attic/a.png": b"a"})
+    (tmp_path / "notes.txt").write_text("mine")
+    with open_run_folder(tmp_path, HEADER) as folder:
+        assert folder.has("plan", "k")
+        folder.drop_unasked()
+    assert {path.name for path in tmp_path.iterdir()} == {"plan.json", "manifest.json", ".lock", "notes.txt"}
+    assert list(json.loads((tmp_path / "manifest.json").read_text())["entries"]) == ["plan"]
+
+
+def test_files_that_an_entry_has_no_more_are_removed(tmp_path):
+    with open_run_folder(tmp_path, HEADER) as folder:
+        folder.save("furnish", "k", {"a": b"a", "b": b"b"})
+        folder.save("cameras", "k", {"c": b"c"})
+        folder.save("furnish", "l", {"a": b"A"})
+    assert (tmp_path / "a").exists() and (tmp_path / "c").exists() and not (tmp_path / "b").exists()
+
+
+@pytest.mark.parametrize("names", [(".lock",), (".lock", ".part-wm-abcdefgh.json"), (".lock", "timings.json")])
+def test_what_only_wm_leaves_blocks_no_folder(tmp_path, names):
+    for name in names:
+        (tmp_path / name).write_text('{"plan": {"seconds": 1.0, "peak_gib": 1.0}}' if name == "timings.json" else "")
+    with open_run_folder(tmp_path, HEADER):
+        assert not list(tmp_path.glob(".part-*"))
+
+
+@pytest.mark.parametrize("name", ["timings.json", ".part-abcdefgh.json", ".part-wm-thesis.pdf"])
+def test_what_only_looks_like_it_is_somebody_elses(tmp_path, name):
+    (tmp_path / name).write_text('{"lap": 3}')
+    with pytest.raises(ArtifactError, match=f"holds no run .{name}"):
+        open_run_folder(tmp_path, HEADER).__enter__()
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [(name, '{"lap": 3}')]
+
+
+def test_overwrite_sweeps_nothing_below_a_folder_that_held_no_run(tmp_path):
+    foreign = tmp_path / "download/deep/.part-wm-abcdefgh.pdf"  # even of this name: it may be that of another run at work
+    foreign.parent.mkdir(parents=True)
+    foreign.write_text("half")
+    with open_run_folder(tmp_path, HEADER, overwrite=True):
+        assert foreign.exists()
+
+
+def test_a_damaged_manifest_of_somebody_else_does_not_give_his_folder_away(tmp_path):
+    for name, text in (("manifest.json", "name: my web app"), ("index.html", "<p>")):
+        (tmp_path / name).write_text(text)
+    with pytest.raises(ArtifactError, match="holds no run"):
+        open_run_folder(tmp_path, HEADER).__enter__()
+    assert (tmp_path / "manifest.json").read_text() == "name: my web app" and not (tmp_path / ".lock").exists()
+
+
+def test_nothing_is_made_behind_links(tmp_path):
+    run, outside = tmp_path / "run", tmp_path / "outside"
+    outside.mkdir()
+    with open_run_folder(run, HEADER) as folder:
+        (run / "views").symlink_to(outside)
+        with pytest.raises(ArtifactError, match="leads through a link"):
+            folder.save("paint/a", "k", {"views/a.png": b"a"})
+    (run / ".lock").unlink()
+    (run / ".lock").symlink_to(outside / "lock")
+    with pytest.raises(ArtifactError, match=r"\.lock is a link"):
+        open_run_folder(run, HEADER).__enter__()
+    assert list(outside.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["manifest.json", ".lock"])
+def test_a_folder_where_a_file_is_needed_is_named(tmp_path, name):
+    (tmp_path / name).mkdir()
+    with pytest.raises(IsADirectoryError) as caught:
+        open_run_folder(tmp_path, HEADER).__enter__()
+    assert caught.value.filename == str(tmp_path / name)

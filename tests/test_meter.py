@@ -10,6 +10,7 @@ from tests.test_memory import start_worker
 from wm import meter as module
 from wm.memory import resident_gib
 from wm.meter import StageMeter
+from wm.timings import UNKNOWN
 
 
 def test_seconds_add_up_and_peaks_do_not():
@@ -38,12 +39,33 @@ def test_credit_counts_like_a_part_of_the_stage():
     assert meter.stages == {"paint": {"seconds": 5.0, "peak_gib": 1.0}, "fit": {"seconds": 4.0, "peak_gib": 2.0}}
 
 
-def test_a_stage_that_finds_all_done_costs_nothing_but_the_first_time():
+def test_a_stage_that_finds_all_done_keeps_its_row_and_gets_none():
     meter = StageMeter({"paint": {"seconds": 2.0, "peak_gib": 1.0}})
-    for name in ("paint", "structure"):
+    for name in ("paint", "reconstruct"):
         with meter.stage(name, made=lambda: False):
             pass
-    assert meter.stages["paint"] == {"seconds": 2.0, "peak_gib": 1.0} and "structure" in meter.stages
+    assert meter.stages == {"paint": {"seconds": 2.0, "peak_gib": 1.0}}
+
+
+def test_what_was_lost_stays_unknown_and_so_does_the_sum():
+    meter = StageMeter({"plan": {"seconds": 2.0, "peak_gib": 1.0}, "paint": UNKNOWN})
+    with meter.stage("paint"):
+        pass
+    assert meter.stages["paint"] == UNKNOWN and meter.seconds is None and meter.peak_gib is None
+    meter.outdate()
+    with meter.stage("paint"):
+        pass
+    assert meter.seconds is not None and meter.seconds >= 2.0
+
+
+def test_a_stage_of_another_run_is_forgotten():
+    meter = StageMeter({"furnish": {"seconds": 2.0, "peak_gib": 1.0}})
+    assert meter.knows("furnish")
+    meter.outdate()
+    assert not meter.knows("furnish")
+    meter.forget("furnish")
+    meter.forget("furnish")
+    assert meter.stages == {}
 
 
 def test_of_another_run_counts_only_what_is_still_used():

@@ -13,6 +13,7 @@ from wm.meter import StageMeter
 from wm.metric_table import METRICS
 from wm.pipeline import run
 from wm.run import load_config
+from wm.stages.history import read_history
 from wm.stages.run_context import RunContext
 from wm.stages.scene import build_scene
 
@@ -57,7 +58,7 @@ def test_everything_promised_is_there(whole):
     assert json.loads((whole / "metrics.json").read_text())["views"] == len(list((whole / "views").rglob("*.depth.png")))
     assert {"plan", "paint", "reconstruct", "evaluate", "report"} <= set(json.loads((whole / "timings.json").read_text()))
     assert "<svg" in (whole / "report.html").read_text()
-    curve = json.loads((whole / "stages/history.json").read_text())
+    curve = read_history(whole / "stages/history.json")
     assert len(curve) == 2 and all(point[name] is not None for point in curve for name in ("psnr", "m_mae", "n_ang_deg"))
     assert not list(whole.rglob(".part-*"))
 
@@ -130,6 +131,22 @@ def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(whole, tmp_pa
     run(config, tmp_path / "alone")
     assert _bytes(tmp_path / "borrowed") == _bytes(tmp_path / "alone")
     assert (tmp_path / "borrowed/layout.json").is_file()
+
+
+def test_until_a_stage_stops_there_and_the_next_run_goes_on(tmp_path, capsys):
+    assert run(load_config([*SMALL, "until=plan"]), tmp_path) == {}
+    assert "stopped after plan; the same command without until=plan goes on" in capsys.readouterr().out
+    plan = (tmp_path / "plan.json").read_bytes()
+    assert not (tmp_path / "objects.json").exists()
+    run(load_config([*SMALL, "until=cameras"]), tmp_path)
+    times = json.loads((tmp_path / "timings.json").read_text())
+    assert set(times) == {"plan", "structure", "furnish", "cameras"} and (tmp_path / "plan.json").read_bytes() == plan
+    (tmp_path / "timings.json").unlink()
+    run(load_config([*SMALL, "until=furnish"]), tmp_path)  # finds all done: it has not taken the time that this takes
+    again = json.loads((tmp_path / "timings.json").read_text())
+    assert again["plan"] == again["furnish"] == {"seconds": None, "peak_gib": None}
+    said = capsys.readouterr().out
+    assert "timings.json: missing or damaged; how long cameras, furnish, plan took is not known any more" in said
 
 
 def test_another_configuration_does_not_share_the_folder(whole):

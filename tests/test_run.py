@@ -236,7 +236,9 @@ def test_a_sweep_runs_every_variant_although_one_fails(tmp_path):
 def test_runs_of_a_sweep_that_would_share_a_folder_are_told_how_not_to(tmp_path):
     done = command("-m", "+scene=gothic", "preset=draft,standard", cwd=tmp_path, action=WRITES)
     assert done.returncode == 2
-    assert done.stdout.count("gothic full") == 1 and "an earlier run of this sweep has this folder" in done.stderr
+    assert done.stdout == "" and done.stderr.count("\n") == 1  # before the first row
+    assert "row 2 of the sweep (+scene=gothic preset=standard): an earlier run of this sweep has this folder" in done.stderr
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("group, named", [("preset", "${preset}"), ("image", "${hydra:runtime.choices.image}")])

@@ -4,8 +4,10 @@ A YAML that says `backend: some.module` brings that module's `Settings` as the s
 others, by name and type here, by range in wm.validate. That holds for the folders of `--config-dir` as well.
 """
 
+import contextlib
 import difflib
-from collections.abc import Iterator, Sequence
+import os
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
@@ -21,6 +23,7 @@ from omegaconf import DictConfig, OmegaConf, open_dict
 from omegaconf.errors import InterpolationToMissingValueError, MissingMandatoryValue, OmegaConfBaseException
 
 from wm.command_line import quoted, scene_name, translated
+from wm.environment import EnvironmentText, environment_values, masked
 from wm.errors import InputError
 from wm.schema import RunConfig
 from wm.validate import ConfigError, validate_config
@@ -49,11 +52,17 @@ class BackendSource(FileConfigSource):
 
 
 def register() -> None:
-    """Tells Hydra of the schema and of files that select backends. Done once, when this module is imported."""
+    """Tells Hydra of the schema, of files that select backends, of `wm.folder`, which names the run folder, and of
+    `wm.scene_name`. Done once, when this module is imported."""
     OmegaConf.register_new_resolver("wm.scene_name", scene_name, replace=True)
     Plugins.instance()  # registers Hydra's own sources first
     SourcesRegistry.instance().types["file"] = BackendSource
     ConfigStore.instance().store(name="run_config", node=_schema())
+    OmegaConf.register_new_resolver("wm.folder", _folder, replace=True)
+
+
+def _folder(output: str | None, default: str) -> str:
+    return default if output is None else os.path.abspath(output)
 
 
 def freeze(composed: Any) -> RunConfig:
@@ -63,6 +72,12 @@ def freeze(composed: Any) -> RunConfig:
       ConfigError: a key that the schema does not know, a value of a wrong kind or out of range, no scene, backends that do not
         go together.
     """
+    raw = OmegaConf.to_container(composed, resolve=False)
+    with refused(_texts(raw)):
+        return _frozen(composed, raw)
+
+
+def _frozen(composed: Any, raw: Any) -> RunConfig:
     from wm.synth.registry import mismatches, misplaced  # here: `--help` needs none of it
 
     if OmegaConf.is_missing(composed.scene, "theme"):
@@ -70,7 +85,9 @@ def freeze(composed: Any) -> RunConfig:
     for key in _unknown_keys(composed, ""):
         raise ConfigError(_unknown_key(key, composed))
     config = OmegaConf.to_object(composed)
-    assert isinstance(config, RunConfig)
+    if not isinstance(config, RunConfig):
+        raise ConfigError("the configuration is not that of a run; arguments change its keys and cannot replace it")
+    _mark(config, raw, environment_values(_texts(raw)))
     validate_config(config)
     if faults := list(misplaced(config)) or mismatches(config):
         raise ConfigError("; ".join(faults))
@@ -88,18 +105,37 @@ def load_config(overrides: Sequence[str] = (), *, config_dir: Path | str | None 
       ConfigError: the arguments do not compose, or their values cannot be run.
     """
     where = [] if config_dir is None else [f"hydra.searchpath=['file://{Path(config_dir).resolve()}']"]
-    with hydra.initialize_config_dir(str(CONF), version_base="1.3"):
-        try:
-            composed = hydra.compose("config", [*where, *translated(overrides)])
-        except (HydraException, OmegaConfBaseException) as error:
-            raise ConfigError(explain(error)) from error
+    with hydra.initialize_config_dir(str(CONF), version_base="1.3"), refused(overrides):
+        composed = hydra.compose("config", [*where, *translated(overrides)])
     return freeze(composed)
+
+
+@contextlib.contextmanager
+def refused(texts: Iterable[str], where: str = "") -> Iterator[None]:
+    """Makes a ConfigError of one line of whatever composing these arguments raises.
+
+    Hydra, OmegaConf and the settings of backends raise a dozen types of errors for values that they cannot use, and quote them:
+    what the texts interpolate from the environment is masked.
+
+    Args:
+      texts: the arguments, or the texts of the configuration.
+      where: precedes the message.
+    """
+    try:
+        yield
+    except Exception as error:
+        known = isinstance(error, InputError | HydraException | OmegaConfBaseException)
+        text = explain(error) if known else f"the arguments cannot be used: {one_line(str(error)) or type(error).__name__}"
+        said = where + masked(text, environment_values(texts))
+        if isinstance(error, InputError) and said == text:
+            raise
+        raise ConfigError(said) from None  # a traceback of the cause would show what is masked here
 
 
 def explain(error: BaseException) -> str:
     """One line that says what is wrong with a composition, or with a run."""
-    cause = error.__cause__
-    key = getattr(cause, "full_key", None)
+    cause = error if getattr(error, "full_key", None) else error.__cause__
+    key = getattr(cause, "full_key", None) or None
     if isinstance(error, MissingConfigException) and error.missing_cfg_file:
         group, _, option = str(error.missing_cfg_file).rpartition("/")
         known = error.options or ()
@@ -148,6 +184,39 @@ def _typed(yaml: Any, config_path: str, path: str) -> Any:
         with open_dict(typed):
             typed.defaults = defaults
     return typed
+
+
+def _texts(tree: Any) -> Iterator[str]:
+    """All texts among JSON-like values."""
+    if isinstance(tree, str):
+        yield tree
+    for inner in tree.values() if isinstance(tree, dict) else tree if isinstance(tree, list) else ():
+        yield from _texts(inner)
+
+
+def _mark(record: Any, raw: Any, values: dict[str, str]) -> None:
+    """Makes an EnvironmentText of every text of a record that comes out of the environment.
+
+    Args:
+      raw: the same tree before interpolation; a text where the whole of it is interpolated.
+      values: of `environment_values`: a text that interpolates another key is known by them.
+    """
+    for field in fields(record):
+        value, source = getattr(record, field.name), raw.get(field.name) if isinstance(raw, dict) else raw
+        if is_dataclass(value):
+            _mark(value, source, values)
+        elif isinstance(value, list):
+            sources = source if isinstance(source, list) else [source] * len(value)
+            setattr(record, field.name, [_marked(inner, text, values) for inner, text in zip(value, sources)])
+        else:
+            setattr(record, field.name, _marked(value, source, values))
+
+
+def _marked(value: Any, source: Any, values: dict[str, str]) -> Any:
+    interpolated = isinstance(value, str) and isinstance(source, str) and "${" in source
+    if interpolated and ("oc.env" in source or any(hidden in value for hidden in values)):
+        return EnvironmentText(value, source)
+    return value
 
 
 def _unknown_keys(node: Any, prefix: str) -> Iterator[str]:

@@ -6,20 +6,19 @@ import time
 from collections.abc import Callable, Iterator
 
 from wm.memory import MemoryProbe, resident_gib
+from wm.timings import Row, Rows
 
 SAMPLE_SECONDS = 0.05
 """Interval at which memory is read."""
 KEEP_SECONDS = 5.0
 """Interval at which the times of an unfinished stage are saved, in case the process is killed."""
 
-Rows = dict[str, dict[str, float]]
-
 
 class StageMeter:
     """Seconds and peak resident memory of each stage. The seconds of an interrupted run add up over its parts.
 
     Args:
-      earlier: the rows that an earlier part of the run has left.
+      earlier: the rows that an earlier part of the run has left; a row of None is that of a stage whose time was lost.
       keep: saves all rows. It is called from another thread every KEEP_SECONDS of a stage, and at the end of each stage.
     """
 
@@ -38,14 +37,15 @@ class StageMeter:
 
         Args:
           name: the stage.
-          made: whether the stage has made anything so far. A stage that finds everything done keeps the row that it has.
+          made: whether the stage has made anything so far. A stage that finds everything done keeps the row that it has, and
+            gets none if it has none: to find it done is not what it cost.
         """
         started, peak, done = time.perf_counter(), [resident_gib()], threading.Event()
 
         def rows() -> Rows:
-            if name in self.stages and not made():
+            if not made():
                 return self.stages
-            row = {"seconds": time.perf_counter() - started, "peak_gib": max(peak[0], resident_gib())}
+            row: Row = {"seconds": time.perf_counter() - started, "peak_gib": max(peak[0], resident_gib())}
             return self.stages | {name: _together(self._known(name), row)}
 
         def watch() -> None:
@@ -68,25 +68,40 @@ class StageMeter:
             self._outdated.discard(name)
             self._keep(self.stages)
 
-    def credit(self, name: str, row: dict[str, float]) -> None:
+    def knows(self, name: str) -> bool:
+        """Whether a stage has a row of this run."""
+        return name in self.stages and name not in self._outdated
+
+    def forget(self, name: str) -> None:
+        """Drops the row of a stage that this run does not have."""
+        self.stages = {stage: row for stage, row in self.stages.items() if stage != name}
+
+    def credit(self, name: str, row: Row) -> None:
         """Adds to stage `name` the time and memory that its result, or a part of it, has cost in the run it was copied from."""
         self.stages = self.stages | {name: _together(self._known(name), row)}
         self._outdated.discard(name)
 
-    def _known(self, name: str) -> dict[str, float]:
-        nothing = {"seconds": 0.0, "peak_gib": 0.0}
+    def _known(self, name: str) -> Row:
+        nothing: Row = {"seconds": 0.0, "peak_gib": 0.0}
         return nothing if name in self._outdated else self.stages.get(name, nothing)
 
     @property
-    def seconds(self) -> float:
-        return round(sum(row["seconds"] for row in self.stages.values()), 3)
+    def seconds(self) -> float | None:
+        """Of all stages; None if that of one is not known."""
+        values = [row["seconds"] for row in self.stages.values()]
+        return None if None in values else round(sum(value for value in values if value is not None), 3)
 
     @property
-    def peak_gib(self) -> float:
-        return max((row["peak_gib"] for row in self.stages.values()), default=0.0)
+    def peak_gib(self) -> float | None:
+        """Of all stages; None if that of one is not known."""
+        values = [row["peak_gib"] for row in self.stages.values()]
+        return None if None in values else max((value for value in values if value is not None), default=0.0)
 
 
-def _together(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
-    """The row of two parts of a stage together."""
-    seconds, peak = a["seconds"] + b["seconds"], max(a["peak_gib"], b["peak_gib"])
-    return {"seconds": round(seconds, 3), "peak_gib": round(peak, 3)}
+def _together(a: Row, b: Row) -> Row:
+    """The row of two parts of a stage together: not known where one of them is not."""
+    seconds, peaks = (a["seconds"], b["seconds"]), (a["peak_gib"], b["peak_gib"])
+    return {
+        "seconds": None if None in seconds else round(sum(value for value in seconds if value is not None), 3),
+        "peak_gib": None if None in peaks else round(max(value for value in peaks if value is not None), 3),
+    }

@@ -11,7 +11,9 @@ and averaged.
 """
 
 import dataclasses
-from typing import Literal
+import json
+import pathlib
+from typing import Any, Literal
 
 from tabulate import tabulate
 
@@ -103,6 +105,19 @@ _ROWS = (
 
 METRICS: dict[str, Metric] = {metric.key: metric for metric in _ROWS}
 """Every metric by its key, in the order in which they are shown."""
+
+
+def read_metrics(file: pathlib.Path) -> dict[str, float | int | None] | None:
+    """The metrics that a run has left in a file, each a finite number or None; None if the file is anything else."""
+    try:
+        values = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+    return values if isinstance(values, dict) and all(map(_is_figure, values.values())) else None
+
+
+def _is_figure(value: Any) -> bool:
+    return value is None or (isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300)
 
 
 def metrics_page() -> str:

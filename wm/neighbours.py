@@ -6,12 +6,15 @@ folder can be changed or deleted without affecting the others.
 """
 
 import dataclasses
-import json
 import pathlib
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from wm.artifacts import MANIFEST, content_digest, write_atomically
+from wm.atomic import write_atomically
+from wm.confined import confined
+from wm.digests import content_digest
+from wm.errors import ArtifactError
+from wm.manifest import ManifestDamage, read_manifest
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -64,21 +67,20 @@ class Neighbours:
 
 def _read(folder: pathlib.Path) -> Neighbour | None:
     try:
-        manifest = json.loads((folder / MANIFEST).read_text())
-        entries = {name: {"key": str(e["key"]), "files": dict(e["files"])} for name, e in manifest["entries"].items()}
-        return Neighbour(path=folder, entries=entries)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        manifest = read_manifest(folder)
+    except (OSError, ManifestDamage, ArtifactError):
         return None
+    return None if manifest is None else Neighbour(path=folder, entries=manifest.entries)
 
 
 def _copy(source: pathlib.Path, files: Mapping[str, str], into: pathlib.Path) -> bool:
     """Copies the files into `into` if all of them can be read and have the expected digest, and returns whether it did."""
     try:
-        contents = {relative: (source / relative).read_bytes() for relative in files}
-    except OSError:  # another run is writing the folder, files were deleted, or they may not be read
+        contents = {relative: confined(source, relative).read_bytes() for relative in files}
+    except (OSError, ArtifactError):  # another run is writing the folder, files were deleted, may not be read, or are not its own
         return False
     if any(content_digest(contents[relative]) != expected for relative, expected in files.items()):
         return False
     for relative, content in contents.items():
-        write_atomically(into / relative, content)
+        write_atomically(confined(into, relative, replaced=True), content)
     return True

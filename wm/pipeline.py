@@ -6,36 +6,43 @@ resumed run makes only what is missing and ends with the same bytes as an uninte
 
 import contextlib
 import functools
-import json
 import pathlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from tabulate import tabulate
 
-from wm.artifacts import identity, json_text, open_run_folder, write_atomically
+from wm import console
+from wm.artifacts import file_digest, identity, json_text, open_run_folder, write_atomically
+from wm.confined import confined
+from wm.environment import shown_identity
+from wm.errors import ArtifactError
 from wm.geometry.plan.loading import read_plan_file
 from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.metric_table import METRICS
 from wm.neighbours import Neighbours
-from wm.schema import RunConfig
+from wm.schema import STAGES, RunConfig
 from wm.splat.optimization.padding import Capacity
 from wm.stages.evaluation import evaluate
 from wm.stages.heldout import HeldOut, render_heldout
+from wm.stages.history import HISTORY
 from wm.stages.painting import Painted, is_painted, paint
-from wm.stages.reconstruction import HISTORY, reconstruct
+from wm.stages.reconstruction import reconstruct
 from wm.stages.reporting import METRICS_FILE, REPORT, report
-from wm.stages.run_context import TIMINGS, RunContext, versions
+from wm.stages.run_context import RunContext, StoppedError, versions
 from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.stages.warm_up import warming_up
 from wm.synth.registry import close_backend, make_backend
+from wm.timings import TIMINGS, UNKNOWN, Rows, read_rows
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
 """The file of a stage whose content depends on the clock, and which therefore is not part of the stage's entry."""
+_STAGE_OF = {"fit": "reconstruct", "video": "report"}
+"""The stage of an entry, where its name does not begin with that of its stage."""
 
 
 def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib.Path] = ()) -> dict:
-    """One run, from the theme to the report.
+    """One run, from the theme to the report, or to the end of the stage `until`.
 
     Args:
       config: the whole configuration, already checked (wm.validate).
@@ -44,7 +51,7 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
         and memory are added to this run's, so that the times of runs stay comparable.
 
     Returns:
-      The content of `metrics.json`.
+      The content of `metrics.json`; nothing if the run stops before its last stage.
 
     Raises:
       ArtifactError: the folder is in use, or holds a run of another configuration.
@@ -54,22 +61,34 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     prepare_process()
     if config.plan.file is not None:
         read_plan_file(config.plan.file)  # raises before a folder is made
-    header, meter = _header(config), StageMeter(_timings(folder), keep=functools.partial(_keep_timings, folder))
+    meter = StageMeter(keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
-    lend = Neighbours(neighbours, say=print, account=account).lend
-    with open_run_folder(folder, header, overwrite=config.overwrite, lend=lend) as store:
+    lend = Neighbours(neighbours, say=console.say, account=account).lend
+    with open_run_folder(folder, _header(config), overwrite=config.overwrite, lend=lend) as store:
+        meter.stages = _earlier_times(folder, store.stages)
         if store.overwrites:
             meter.outdate()
+        _keep_timings(folder, meter.stages)  # from now on a folder without times has lost them
         context = RunContext(config=config, folder=store, meter=meter)
-        scene = build_scene(context)
-        capacity = Capacity()
-        with warming_up(context, scene, capacity, needed=not is_painted(context, scene)):
-            painted, heldout = _painted(context, scene)
-        result = reconstruct(context, scene, painted, heldout, capacity)
-        metrics = evaluate(context, scene, painted, result, heldout)
-        metrics = report(context, scene, painted, result, metrics)
-        print(_summary(folder, context, metrics))
+        try:
+            metrics = _run_stages(context)
+        except StoppedError:
+            console.say(_stopped(context))
+            return {}
+        store.drop_unasked()
+        console.say(_summary(context, metrics))
         return metrics
+
+
+def _run_stages(context: RunContext) -> dict:
+    scene = build_scene(context)
+    capacity = Capacity()
+    fits = STAGES.index(context.config.until) >= STAGES.index("reconstruct")
+    with warming_up(context, scene, capacity, needed=fits and not is_painted(context, scene)):
+        painted, heldout = _painted(context, scene)
+    result = reconstruct(context, scene, painted, heldout, capacity)
+    metrics = evaluate(context, scene, painted, result, heldout)
+    return report(context, scene, painted, result, metrics)
 
 
 def _painted(context: RunContext, scene: Scene) -> tuple[Painted, HeldOut]:
@@ -84,40 +103,73 @@ def _painted(context: RunContext, scene: Scene) -> tuple[Painted, HeldOut]:
 
 def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pathlib.Path) -> None:
     """Adds the time and memory of a copied stage to ours, and copies its file that depends on the clock."""
-    if stage in (timings := _timings(elsewhere)):
-        meter.credit(stage, timings[stage])
-    if (elsewhere / (clocked := _CLOCKED.get(stage, ""))).is_file():
-        write_atomically(folder / clocked, (elsewhere / clocked).read_bytes())
+    meter.credit(stage, _timings(elsewhere).get(stage, UNKNOWN))
+    if stage in _CLOCKED:
+        with contextlib.suppress(ArtifactError, FileNotFoundError, IsADirectoryError):  # it has none
+            content = confined(elsewhere, _CLOCKED[stage]).read_bytes()
+            write_atomically(confined(folder, _CLOCKED[stage], replaced=True), content)
 
 
 def _header(config: RunConfig) -> dict:
-    return {"config": identity(config), "seed": config.seed, "versions": versions()}
+    """What identifies the run. A floor plan of the user's own is part of it by its content and not only by its name."""
+    plan = {} if config.plan.file is None else {"plan": file_digest(pathlib.Path(config.plan.file))}
+    return {"config": shown_identity(identity(config)), "seed": config.seed, "versions": versions(), **plan}
 
 
-def _keep_timings(folder: pathlib.Path, rows: dict) -> None:
-    write_atomically(folder / TIMINGS, json_text(rows))
+def _keep_timings(folder: pathlib.Path, rows: Rows) -> None:
+    write_atomically(confined(folder, TIMINGS, replaced=True), json_text(rows))
 
 
-def _timings(folder: pathlib.Path) -> dict:
+def _timings(folder: pathlib.Path) -> Rows:
     """The rows that a finished or interrupted run has left; none if the file is missing or damaged."""
+    return _read_timings(folder) or {}
+
+
+def _read_timings(folder: pathlib.Path) -> Rows | None:
     try:
-        rows = json.loads((folder / TIMINGS).read_text())
-        return {name: {"seconds": float(row["seconds"]), "peak_gib": float(row["peak_gib"])} for name, row in rows.items()}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return {}
+        return read_rows(confined(folder, TIMINGS))
+    except ArtifactError:  # a link to elsewhere
+        return None
 
 
-def _summary(folder: pathlib.Path, context: RunContext, metrics: dict) -> str:
-    stages = {**context.meter.stages, "in all": metrics}
-    rows = [(name, *(METRICS[key].text(row[key]) for key in ("seconds", "peak_gib"))) for name, row in stages.items()]
+def _earlier_times(folder: pathlib.Path, entries: Iterable[str]) -> Rows:
+    """The rows of what is in the folder; UNKNOWN for finished stages if their times are lost, which is said."""
+    rows, finished = _read_timings(folder), {_STAGE_OF.get(name, name) for name in entries}
+    lost = finished if rows is None else {name for name, row in rows.items() if row == UNKNOWN}
+    rows = rows or {}
+    if lost:
+        console.say(f"{folder / TIMINGS}: missing or damaged; how long {', '.join(sorted(lost))} took is not known any more")
+    return {name: row for name, row in rows.items() if name in STAGES} | dict.fromkeys(lost, UNKNOWN)
+
+
+def _stopped(context: RunContext) -> str:
+    until = context.config.until
+    goes_on = f"stopped after {until}; the same command without until={until} goes on"
+    return "\n".join(["", _times(context), goes_on, f"results: {context.folder.path}"])
+
+
+def _summary(context: RunContext, metrics: dict) -> str:
     measured = (METRICS[key] for key in ("psnr", "m_mae", "n_ang_deg") if metrics[key] is not None)
     held_out = ", ".join(f"{metric.label} {metric.text(metrics[metric.key])}" for metric in measured)
-    where = folder / REPORT if context.config.report.enabled else folder / METRICS_FILE
+    where = context.folder.path / (REPORT if context.config.report.enabled else METRICS_FILE)
+    took = METRICS["seconds"].text(metrics["seconds"]) if metrics["seconds"] is not None else "an unknown time"
+    again = [] if context.folder.recorded else [f"nothing to do: all of it is there; making it took {took}"]
     return "\n".join(
         [
-            f"\n{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
-            tabulate(rows, tablefmt="plain", colalign=("left", "right", "right"), disable_numparse=True),
+            "",
+            *again,
+            f"{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
+            _times(context),
             f"held-out: {held_out}" if held_out else "held-out: not measured",
             f"results: {where}",
         ]
     )
+
+
+def _times(context: RunContext) -> str:
+    """Time and memory of every stage, in the order of the stages, and in all."""
+    meter = context.meter
+    in_order: Rows = {name: meter.stages[name] for name in STAGES if name in meter.stages}
+    stages: Rows = {**in_order, "in all": {"seconds": meter.seconds, "peak_gib": meter.peak_gib}}
+    rows = [(name, *(METRICS[key].text(row[key]) for key in ("seconds", "peak_gib"))) for name, row in stages.items()]
+    return tabulate(rows, tablefmt="plain", colalign=("left", "right", "right"), disable_numparse=True)

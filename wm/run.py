@@ -6,7 +6,7 @@
 
 `python -m wm.run` is the same as `wm`; wm.command_line says what may be typed, wm.help what --help answers. Errors are one line
 on stderr (tracebacks with debug=true) and an exit code: 2 for input that cannot be run, 1 for a run that failed, 130 after
-Ctrl-C.
+Ctrl-C, 143 after SIGTERM.
 """
 
 import contextlib
@@ -23,29 +23,40 @@ import hydra
 from hydra.core.hydra_config import HydraConfig
 from hydra.errors import HydraException
 from hydra.types import RunMode
-from omegaconf import OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from wm import command_line, composition
+from wm import command_line, composition, console
+from wm.atomic import discard_unfinished
 from wm.composition import CONF, freeze, one_line
 from wm.composition import load_config as load_config
 from wm.composition import options as options
 from wm.errors import InputError
 from wm.help import answer, asks_for_help
-from wm.schema import RunConfig
-from wm.validate import ConfigError
+from wm.preflight import planned_runs, shared_folder
+from wm.schema import STAGES, RunConfig
+from wm.signals import ending
+from wm.validate import ConfigError as ConfigError
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130
-OUTPUTS = "outputs"
-"""Where run folders lie, as conf/config.yaml says."""
 _SAID = "said on stderr"
 _begun: list[Path] = []
 _finished: list[Path] = []
 """Folders of the runs that this process has begun, and of those that it has finished."""
+_missing: dict[Path, tuple[Path, ...]] = {}
+"""By the folder of a run, it and those above it that were not there before."""
 
 
 def main() -> None:
-    """The command line. Exits with 0, FAILED, BAD_INPUT or INTERRUPTED."""
+    """The command line. Exits with 0, FAILED, BAD_INPUT, or 128 and the number of the signal that ended it."""
+    console.open_standard_streams()
+    try:
+        with ending(_interrupted):
+            _main()
+    finally:
+        console.flush()
+
+
+def _main() -> None:
     os.environ["HYDRA_FULL_ERROR"] = "1"  # Hydra then raises to here instead of printing its own report
     logging.getLogger("jax").setLevel(logging.WARNING)  # Hydra shows what is told, and JAX tells of every accelerator it lacks
     debug = "debug=true" in (argument.lower() for argument in sys.argv)
@@ -56,8 +67,7 @@ def main() -> None:
         sys.argv[1:] = command_line.translated(sys.argv[1:])
         _run_all()
     except KeyboardInterrupt:
-        _say("interrupted; the same command resumes")
-        _leave(INTERRUPTED)
+        _interrupted(INTERRUPTED)
     except Exception as error:
         if debug:
             raise
@@ -74,9 +84,21 @@ def _print_answer() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python would complain at exit
 
 
+def _interrupted(code: int) -> None:
+    """Says so, shows what a sweep has made so far, and ends the process."""
+    if console.on_terminal():
+        console.warn("")  # the line of a progress bar ends here
+    _say("interrupted; the same command resumes")
+    if len(_finished) > 1:
+        with contextlib.suppress(Exception):
+            _print_sweep(_finished)
+    _leave(code)
+
+
 def _leave(code: int) -> None:
     """Ends the process now. Threads in the middle of a bake or a compilation are not waited for: every artifact is whole."""
-    sys.stdout.flush()
+    console.flush()
+    discard_unfinished()
     os._exit(code)
 
 
@@ -91,6 +113,8 @@ def _run_all() -> None:
     """What the command line asks for; after a sweep also a table of what it made, as far as it came."""
     _begun.clear()
     _finished.clear()
+    _missing.clear()
+    _missing.update({run.folder: run.missing for run in planned_runs(sys.argv[1:])})
     try:
         _composed_by_hydra()
     finally:
@@ -105,7 +129,8 @@ def _run_one(composed: Any) -> None:
         config = freeze(composed)
         _begin(folder)
         importlib.import_module("wm.pipeline").run(config, folder, neighbours=_neighbours(config, folder))
-        _finished.append(folder)
+        if config.until == STAGES[-1]:
+            _finished.append(folder)
     except Exception as error:
         _tidy(folder)
         if HydraConfig.get().mode == RunMode.MULTIRUN and not composed.debug:
@@ -121,18 +146,14 @@ def _run_one(composed: Any) -> None:
 def _begin(folder: Path) -> None:
     """Raises: ConfigError where an earlier run of this sweep has the folder."""
     if folder in _begun:
-        raise ConfigError(
-            "an earlier run of this sweep has this folder, which scene, variant and seed name; where something else differs, "
-            "name a folder for each, e.g. 'output=runs/${preset}' or 'output=runs/${hydra:runtime.choices.image}'"
-        )
+        raise shared_folder()
     _begun.append(folder)
 
 
 def _tidy(folder: Path) -> None:
-    """Removes the folders that Hydra has made for a run that never came to write anything."""
-    levels = 4 if folder.parts[-4:-3] == (OUTPUTS,) else 1  # of outputs/<scene>/<variant>/<seed> all, if nothing else is there
+    """Removes the folders that Hydra has made for a run that never came to write anything, and none that was there before."""
     with contextlib.suppress(OSError):  # not empty
-        for level in (folder, *folder.parents)[:levels]:
+        for level in _missing.get(folder, ()):
             level.rmdir()
 
 
@@ -146,7 +167,7 @@ def _neighbours(config: RunConfig, folder: Path) -> list[Path]:
 def _print_sweep(folders: Sequence[Path]) -> None:
     """One table of what a sweep has made. Launchers that start processes of their own leave it to `python -m wm.report.sweep`."""
     sweep = importlib.import_module("wm.report.sweep")
-    print(f"\n{sweep.sweep_table(sweep.read_runs(folders))}")
+    console.say(f"\n{sweep.sweep_table(sweep.read_runs(folders))}")
 
 
 def _explain_os_error(error: OSError) -> str:
@@ -155,25 +176,22 @@ def _explain_os_error(error: OSError) -> str:
         return f"{where}the disk is full; what is finished is kept, and the same command resumes once there is room"
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
         return f"{where}no permission to write or read here; output=FOLDER names another run folder"
+    if error.errno == errno.EISDIR:
+        return f"{where}a folder stands where a file is needed; move it away, or name another run folder with output=FOLDER"
     if error.errno in (errno.EEXIST, errno.ENOTDIR):
         return f"{where}a file stands where a folder is needed; output=FOLDER names another run folder"
     return f"{where}{one_line(error.strerror or str(error))}"
 
 
 def _exit_code(error: BaseException) -> int:
-    misplaced = isinstance(error, FileExistsError | NotADirectoryError)
+    misplaced = isinstance(error, FileExistsError | NotADirectoryError | IsADirectoryError)
     return BAD_INPUT if misplaced or isinstance(error, InputError | HydraException | OmegaConfBaseException) else FAILED
 
 
 def _say(line: str) -> None:
-    print(f"wm: {line}", file=sys.stderr, flush=True)
+    console.warn(f"wm: {line}")
 
 
-def _folder(output: str | None, default: str) -> str:
-    return default if output is None else os.path.abspath(output)
-
-
-OmegaConf.register_new_resolver("wm.folder", _folder, replace=True)
 _composed_by_hydra = hydra.main(config_path=str(CONF), config_name="config", version_base="1.3")(_run_one)
 
 

@@ -11,6 +11,9 @@ from typing import Any
 
 from wm.bounds import choice, number, setting
 
+STAGES = ("plan", "structure", "furnish", "cameras", "paint", "heldout", "reconstruct", "evaluate", "report")
+"""The stages of a run, in order."""
+
 BESIDE: dict[str, Any] = {"identity": False}
 """Metadata of a field that changes no stage's result: runs that differ in it alone are the same run."""
 
@@ -250,6 +253,7 @@ class RunConfig:
         True, "Take finished stages over from runs of other variants beside this one, where they are the same.", **BESIDE
     )
     overwrite: bool = setting(False, "A folder made by another configuration is refused unless this is true.", **BESIDE)
+    until: str = choice(STAGES[-1], STAGES, "Stage after which the run stops; the same command without it goes on.", **BESIDE)
     executor: str = choice("threads", ("threads",), "What rooms are fitted by, side by side.", **BESIDE)
     workers: int | None = number(
         None, 1, 1000, "Rooms fitted at once; None: one room per core.", null="one room per core", **BESIDE

@@ -12,6 +12,7 @@ from wm.report.paper import paper_figure
 from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image, media_uri
 from wm.report.plots import plot_error_against_time, plot_stages
 from wm.report.templating import fill
+from wm.timings import Rows
 from wm.types import SceneObject, View
 
 THUMBNAIL = 400
@@ -46,7 +47,7 @@ class ReportData:
     sheets: dict[str, list[SheetRow]]  # room id -> rows
     heroes: dict[str, np.ndarray]  # room id -> a held-out render [h, w, 3]
     metrics: dict[str, float | int | None]
-    timings: dict[str, dict[str, float]]
+    timings: Rows
     history: Sequence[dict]
     video: bytes | None
 

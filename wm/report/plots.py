@@ -11,6 +11,7 @@ matplotlib.use("Agg")
 from matplotlib.figure import Figure
 
 from wm.metric_table import METRICS
+from wm.timings import Rows
 
 CURVES = {"psnr": "linear", "m_mae": "log", "n_ang_deg": "linear"}
 """Metrics that are drawn against the time of the fit, with the scale of their axes."""
@@ -42,13 +43,13 @@ def plot_error_against_time(history: Sequence[dict]) -> Markup:
     return _svg(figure)
 
 
-def plot_stages(timings: dict[str, dict[str, float]]) -> Markup:
-    """Seconds and peak memory of each stage, as bars."""
-    names = list(timings)
+def plot_stages(timings: Rows) -> Markup:
+    """Seconds and peak memory of each stage, as bars; a stage whose time is not known has none."""
+    names = [name for name, row in timings.items() if None not in row.values()]
     figure = _figure(7.2, 0.34 * len(names) + 0.8)
     for k, (key, colour) in enumerate((("seconds", INK), ("peak_gib", SECOND))):
         axes = figure.add_subplot(1, 2, k + 1)
-        bars = axes.barh(names, [timings[name][key] for name in names], color=colour)
+        bars = axes.barh(names, [timings[name][key] or 0.0 for name in names], color=colour)
         axes.bar_label(bars, fmt="%.1f", fontsize=7, padding=2)
         axes.invert_yaxis()
         axes.margins(x=0.18)

@@ -17,7 +17,7 @@ import numpy as np
 from tabulate import tabulate
 
 from wm.errors import InputError
-from wm.metric_table import METRICS, MISSING, Metric
+from wm.metric_table import METRICS, MISSING, Metric, read_metrics
 from wm.report.paper import PAPER_COLUMNS, PAPER_ROWS
 
 _COLUMNS = tuple(METRICS[key] for key in (*PAPER_COLUMNS, "psnr", "ssim", "yield", "atm", "seconds"))
@@ -40,11 +40,12 @@ def read_runs(folders: Iterable[pathlib.Path]) -> list[RunResult]:
 
 def _read(folder: pathlib.Path) -> RunResult:
     try:
-        manifest, metrics = (json.loads((folder / name).read_text()) for name in ("manifest.json", "metrics.json"))
+        manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+        metrics = read_metrics(folder / "metrics.json")
         match manifest["header"]["config"]:
-            case {"scene": {"name": str()}, "variant": str(), "seed": int()} as config:
-                return RunResult(config=config, metrics=dict(metrics))
-    except (OSError, ValueError, KeyError, TypeError):
+            case {"scene": {"name": str()}, "variant": str(), "seed": int()} as config if metrics is not None:
+                return RunResult(config=config, metrics=metrics)
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         pass
     raise InputError(f"{folder} holds no finished run: manifest.json and metrics.json must both be in it")
 

@@ -2,7 +2,6 @@
 
 import dataclasses
 import itertools
-import json
 from collections.abc import Iterator, Sequence
 
 import jax
@@ -12,6 +11,7 @@ from wm import codecs
 from wm.artifacts import json_text
 from wm.geometry import cast, coverage, navigability, visible_rooms
 from wm.geometry.rays.pinhole import scale_camera
+from wm.metric_table import read_metrics
 from wm.splat.metrics import depth_error, normal_error, one_surface, psnr
 from wm.splat.reprojection import every, overlap, reprojection_error, shared_pixels
 from wm.splat.scene.scene_render import SceneRenderer
@@ -50,11 +50,14 @@ def evaluate(run: RunContext, scene: Scene, painted: Painted, result: Reconstruc
         config = run.config
         key = run.key("evaluate", result.key, config.evaluate, config.navigation)
         pictures = [_entry(view) for view in scene.heldout]
-        if not all(run.folder.has(name, key) for name in ("evaluate", *pictures)):
-            metrics = _scene_metrics(run, scene, painted, result) | _heldout_metrics(run, scene, result, heldout, key)
-            clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
-            run.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
-        return json.loads((run.folder.path / EVALUATION).read_text())
+        if all(run.folder.has(name, key) for name in ("evaluate", *pictures)):
+            known = read_metrics(run.folder.path / EVALUATION)
+            if known is not None:
+                return known
+        metrics = _scene_metrics(run, scene, painted, result) | _heldout_metrics(run, scene, result, heldout, key)
+        clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
+        run.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
+        return clean
 
 
 def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:

@@ -31,9 +31,9 @@ def render_heldout(run: RunContext, scene: Scene, image: ImageBackend) -> HeldOu
     """Stores the true images of all held-out views. Only a `WorldBackend` has any; a real image model has none."""
     config = run.config
     key = run.key("heldout", scene.key, config.scene.theme, config.cameras, *backend_key(config.image))
-    if not isinstance(image, WorldBackend):
-        return HeldOut(known=False, key=key, run=run)
     with run.stage("heldout"):
+        if not isinstance(image, WorldBackend):
+            return HeldOut(known=False, key=key, run=run)
         wanted = [view for view in scene.heldout if not run.folder.has(_name(view), key)]
         run.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
         with run.bar("heldout", len(wanted)) as bar:

@@ -72,7 +72,7 @@ def _paint(run: RunContext, scene: Scene, image: ImageBackend, depth: DepthBacke
     settings = PaintSettings(texture=config.texture, condition=config.condition, verify=config.verify)
     names = {_entry(view) for view in scene.views}
     if is_painted(run, scene):
-        summary = json.loads((run.folder.path / SUMMARY).read_text())
+        summary = json.loads((run.folder.path / SUMMARY).read_text(encoding="utf-8"))
         return Painted(yield_share=summary["yield"], atm=summary["atm"], key=key, run=run)
     run.folder.drop_others("paint/", names)
     scaffold = Scaffold(scene=scene.rays, objects=scene.objects)
@@ -102,7 +102,7 @@ def _paint(run: RunContext, scene: Scene, image: ImageBackend, depth: DepthBacke
 def read_view(run: RunContext, view: View) -> PaintedView:
     """Reads a stored view."""
     base = run.folder.path / "views"
-    record = json.loads((base / f"{view.name}.json").read_text())["painted"]
+    record = json.loads((base / f"{view.name}.json").read_text(encoding="utf-8"))["painted"]
     rgb, mask = _read_picture(run, view)
     condition = codecs.decode_png((base / f"{view.name}.condition.png").read_bytes())
     return PaintedView(rgb=rgb, mask=mask, condition=condition, **record)

@@ -1,15 +1,12 @@
 """Reconstruct: gaussians from the painted views, room by room, with a checkpoint after each room and round."""
 
 import dataclasses
-import json
-import pathlib
 from collections.abc import Iterator, Mapping, Sequence
 
 import jax
 import numpy as np
 
-from wm import codecs
-from wm.artifacts import json_text
+from wm import codecs, console
 from wm.geometry import cast, visible_rooms
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
@@ -18,6 +15,7 @@ from wm.splat.scene.scene_fit import fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.stages.executors import room_executor, worker_count
 from wm.stages.heldout import HeldOut
+from wm.stages.history import HISTORY, history_text, read_history
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.run_context import RunContext
@@ -25,7 +23,7 @@ from wm.stages.scene import Scene
 from wm.stages.starting import starting_gaussians
 from wm.types import OUTSIDE, Gaussians, GBuffer, View
 
-SPLATS, BY_ROOM, HISTORY = "splats.ply", "stages/splats.npz", "stages/history.json"
+SPLATS, BY_ROOM = "splats.ply", "stages/splats.npz"
 CURVE_VIEWS = 2
 """Held-out views of a room that the error curve is measured on while fitting; the evaluation uses all of them."""
 
@@ -53,7 +51,7 @@ def reconstruct(run: RunContext, scene: Scene, painted: Painted, heldout: HeldOu
         return ReconstructedScene(
             rooms=rooms,
             renderer=SceneRenderer(rooms, config.raster, capacity=capacity),
-            history=_read_history(run.folder.path / HISTORY),
+            history=read_history(run.folder.path / HISTORY),
             key=key,
         )
 
@@ -77,17 +75,6 @@ def training_view(scene: Scene, view: View, rgb: np.ndarray, mask: np.ndarray, g
         detailed=gbuffer.hit & (mesh.face_object[gbuffer.face] != OUTSIDE),
         sees=tuple(int(room) for room in sees),
     )
-
-
-def _read_history(file: pathlib.Path) -> tuple[dict, ...]:
-    """It depends on the clock, so no digest guards it."""
-    try:
-        return tuple(json.loads(file.read_text()))
-    except FileNotFoundError:
-        return ()
-    except (ValueError, TypeError):
-        print(f"{file}: damaged; the report goes without its curve")
-        return ()
 
 
 def _fit(run: RunContext, scene: Scene, painted: Painted, truths: HeldOut, capacity: Capacity, key: str) -> None:
@@ -152,8 +139,8 @@ def _fit(run: RunContext, scene: Scene, painted: Painted, truths: HeldOut, capac
             workers=workers,
         )
     for line in result.stopped:
-        print(f"reconstruct: {line}")
-    folder.write(HISTORY, json_text([_row(dataclasses.asdict(point)) for point in result.history]))
+        console.say(f"reconstruct: {line}")
+    folder.write(HISTORY, history_text(dataclasses.asdict(point) for point in result.history))
     folder.save(
         "reconstruct",
         key,
@@ -177,8 +164,3 @@ def _join(rooms: Sequence[Gaussians]) -> dict[str, np.ndarray]:
 def _split(arrays: Mapping[str, np.ndarray]) -> tuple[Gaussians, ...]:
     rooms = sorted({name.split(".")[0] for name in arrays})
     return tuple(Gaussians(**{leaf: arrays[f"{room}.{leaf}"] for leaf in _LEAVES}) for room in rooms)
-
-
-def _row(point: dict) -> dict:
-    """A point of the curve with NaN (no held-out views, no depth) as None, which JSON can say."""
-    return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in point.items()}

@@ -1,12 +1,14 @@
 """Stage `report`: `metrics.json`, the fly-through and `report.html`."""
 
 import dataclasses
+import pathlib
 from collections.abc import Iterator
 
 import numpy as np
 
 from wm.artifacts import json_text
 from wm.codecs import to_bytes
+from wm.environment import shown
 from wm.geometry import cast, walkthrough
 from wm.geometry.rays.pinhole import scale_camera
 from wm.metric_table import METRICS
@@ -21,6 +23,8 @@ from wm.stages.scene import Scene
 from wm.types import OUTSIDE, View
 
 VIDEO, REPORT, METRICS_FILE = "flythrough.mp4", "report.html", "metrics.json"
+GENERATOR = b'<meta name="generator" content="wm">'
+"""What tells a report page of ours."""
 SHEET_KINDS = ("bootstrap", "perimeter", "overhead", "doorway")
 """Kinds of views in the contact sheet: for each room it shows one view of each kind."""
 ENOUGH = 0.05
@@ -32,23 +36,32 @@ FARTHER = 1e-3
 def report(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene, metrics: dict) -> dict:
     """Writes the report; returns the metrics with time and memory in them."""
     page = None
-    with run.stage("report"):
+    # A page without a video keeps nothing in an entry.
+    with run.stage("report", stores=run.config.report.video or not run.config.report.enabled):
         if run.config.report.enabled:
             page = _page(run, scene, painted, result)
     # The times of the stages are complete only now. A metric that was not measured becomes null.
     complete = dict.fromkeys(METRICS) | metrics | {"seconds": run.meter.seconds, "peak_gib": run.meter.peak_gib}
     run.folder.write(METRICS_FILE, json_text(complete))
-    if page is not None:
+    if page is None:
+        _remove_report(run.folder.path / REPORT)
+    else:
         run.folder.write(REPORT, render_page(dataclasses.replace(page, metrics=complete, timings=run.meter.stages)))
     return complete
 
 
+def _remove_report(file: pathlib.Path) -> None:
+    """Removes a page that an earlier run has left here, and no other."""
+    if file.is_file() and GENERATOR in file.read_bytes()[:1000]:
+        file.unlink()
+
+
 def _page(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene) -> ReportData:
     return ReportData(
-        scene=run.config.scene.name,
-        theme=run.config.scene.theme,
-        variant=run.config.variant,
-        preset=run.config.preset,
+        scene=shown(run.config.scene.name),
+        theme=shown(run.config.scene.theme),
+        variant=shown(run.config.variant),
+        preset=shown(run.config.preset),
         seed=run.config.seed,
         plan=scene.plan,
         objects=scene.objects,

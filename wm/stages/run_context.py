@@ -3,21 +3,22 @@
 import dataclasses
 import functools
 import importlib.metadata
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from tqdm import tqdm
-
 import wm
 from wm.artifacts import RunFolder, digest
 from wm.meter import StageMeter
-from wm.schema import RunConfig
+from wm.schema import STAGES, RunConfig
+from wm.stages.progress import Progress, progress
 
-TIMINGS = "timings.json"
 _RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
 """Libraries of which another version may give other bytes."""
+
+
+class StoppedError(Exception):
+    """The run has come to the end of the stage `until` and is complete as far as that."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -33,15 +34,31 @@ class RunContext:
         return digest(stage, self.config.seed, versions(), *inputs)
 
     @contextmanager
-    def stage(self, name: str) -> Iterator[None]:
-        """Measures a stage, unless it finds all that it would make."""
-        before = self.folder.recorded
-        with self.meter.stage(name, made=lambda: self.folder.recorded > before):
-            yield
+    def stage(self, name: str, *, stores: bool = True) -> Iterator[None]:
+        """Measures a stage, unless it finds all that it would make.
 
-    def bar(self, name: str, total: int) -> tqdm:
-        """A progress bar with rate and time left, on stderr."""
-        return tqdm(total=total, desc=f"{name:>11}", dynamic_ncols=True, file=sys.stderr, mininterval=0.5)
+        Args:
+          name: the stage.
+          stores: whether it keeps its result in entries of the folder. One that does not is measured the first time.
+
+        Raises:
+          StoppedError: at its end, if the run goes only until this stage.
+        """
+        recorded, found, known = self.folder.recorded, self.folder.found, self.meter.knows(name)
+
+        def made() -> bool:
+            return self.folder.recorded > recorded if stores else not known
+
+        with self.meter.stage(name, made=made):
+            yield
+        if stores and (self.folder.recorded, self.folder.found) == (recorded, found):
+            self.meter.forget(name)  # this run has nothing for it to do: a row is that of another run
+        if name == self.config.until != STAGES[-1]:
+            raise StoppedError
+
+    def bar(self, name: str, total: int) -> Progress:
+        """The progress of a stage on stderr: a bar on a terminal, else a line now and then."""
+        return progress(name, total)
 
 
 @functools.cache

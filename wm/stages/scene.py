@@ -57,7 +57,7 @@ def build_scene(run: RunContext) -> Scene:
     """Builds the scene of a run. What the run folder already holds is read from there."""
     with run.stage("plan"):
         plan, plan_key = _plan(run)
-    with run.stage("structure"):
+    with run.stage("structure", stores=False):
         context = bare_context(run.config, plan)
     with run.stage("furnish"):
         objects, key = _furnish(run, context, plan_key)
@@ -176,5 +176,7 @@ def _cameras(run: RunContext, plan: FloorPlan, rays: RayScene) -> tuple[tuple[Vi
     views = tuple(place_cameras(plan, rays, settings))
     heldout = tuple(place_heldout(plan, rays, views, settings))
     frames = codecs.transforms_json(views, [room.id for room in plan.rooms], "splats.ply")
-    run.folder.save("cameras", run.key("cameras", settings, json.dumps(frames)), {CAMERAS: json_text(frames)})
+    key = run.key("cameras", settings, json.dumps(frames))
+    if not run.folder.has("cameras", key):
+        run.folder.save("cameras", key, {CAMERAS: json_text(frames)})
     return views, heldout

@@ -8,7 +8,6 @@ result.
 """
 
 import dataclasses
-import sys
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -16,6 +15,7 @@ from contextlib import contextmanager
 import jax
 import numpy as np
 
+from wm import console
 from wm.geometry import cast
 from wm.geometry.mesh.scene_mesh import face_crosses
 from wm.host import cores
@@ -70,7 +70,7 @@ def warm_up(run: RunContext, scene: Scene, capacity: Capacity) -> None:
 def _tell(warmed: Future) -> None:
     error = warmed.exception()
     if error is not None:
-        print(f"warm-up of the fit: {type(error).__name__}: {error}; the fit compiles for itself", file=sys.stderr)
+        console.warn(f"warm-up of the fit: {type(error).__name__}: {error}; the fit compiles for itself")
 
 
 def contenders(scene: Scene, settings: FitSettings) -> list[int]:
