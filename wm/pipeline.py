@@ -103,7 +103,8 @@ def _painted(context: RunContext, scene: Scene) -> tuple[Painted, HeldOut]:
 
 def _account(meter: StageMeter, folder: pathlib.Path, stage: str, elsewhere: pathlib.Path) -> None:
     """Adds the time and memory of a copied stage to ours, and copies its file that depends on the clock."""
-    meter.credit(stage, _timings(elsewhere).get(stage, UNKNOWN))
+    if stage in STAGES:  # the entries of a part of a stage ("video") have no time of their own
+        meter.credit(stage, _timings(elsewhere).get(stage, UNKNOWN))
     if stage in _CLOCKED:
         with contextlib.suppress(ArtifactError, FileNotFoundError, IsADirectoryError):  # it has none
             content = confined(elsewhere, _CLOCKED[stage]).read_bytes()
