@@ -84,7 +84,7 @@ def check_laws(plan: FloorPlan, mesh: Mesh) -> None:
     expected = {SurfaceKind.FLOOR: 1.0, SurfaceKind.CEILING: -1.0, SurfaceKind.WALL: 0.0, SurfaceKind.PANE: 0.0}
     for kind, z in expected.items():
         np.testing.assert_allclose(normals[mesh.face_kind == kind, 2], z, atol=1e-6)
-    doors = [portal for portal in portals(plan) if portal.kind != "window"]
+    doors = [portal for portal in portals(plan) if portal.is_way]
     windows = [portal for portal in portals(plan) if portal.kind == "window"]
     for index, room in enumerate(plan.rooms):
         interior = interior_polygon(plan, index)

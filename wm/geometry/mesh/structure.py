@@ -5,7 +5,7 @@
     doors    from one wall face to the other, sill to head                   -> FLOOR under the door, REVEAL
     windows  from the inner face to the pane and from the outer face to it   -> REVEAL and PANE; EXTERIOR
              (what is left between is the glass)
-    entrances  the same, and what is left between is the closed leaf         -> FLOOR, REVEAL; EXTERIOR
+    entrances  the same, and what is left between is the closed leaf         -> REVEAL; EXTERIOR
 
 Everything is subtracted from the block, so every triangle lies on one labelled plane of one solid and normals point into free
 air. A cutter that stops short of a wall's face by 1e-12 m leaves a film, and one that runs on into the room has its floor in the
@@ -128,11 +128,11 @@ def _closed(portal: Portal) -> list[LabelledSolid]:
     first, last = -portal.half_depths[0], portal.half_depths[1]
     half = _barrier(portal) / 2
     window = portal.kind == "window"
-    reveal, pane, floor = (_label(portal.rooms[0], kind) for kind in (SurfaceKind.REVEAL, SurfaceKind.PANE, SurfaceKind.FLOOR))
+    reveal, pane = _label(portal.rooms[0], SurfaceKind.REVEAL), _label(portal.rooms[0], SurfaceKind.PANE)
     inside = _sections(portal, [(first - OVERSHOOT, INSET), (first, 0.0), (-half, 0.0)])
     outside = _sections(portal, [(half, 0.0), (last, 0.0), (last + OVERSHOOT, INSET)])
     return [
-        tunnel(inside, bottom=reveal if window else floor, side=reveal, first=reveal, last=pane if window else reveal),
+        tunnel(inside, bottom=reveal, side=reveal, first=reveal, last=pane if window else reveal),
         tunnel(outside, bottom=_SKIN, side=_SKIN, first=_SKIN, last=_SKIN),
     ]
 
