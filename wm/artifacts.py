@@ -59,6 +59,7 @@ class RunFolder:
     def entry(self, name: str) -> dict[str, Any] | None:
         """The recorded key and file digests of an entry, whether its files are whole or not; None if there is none."""
         return self._entries.get(name)
+
     @property
     def stages(self) -> set[str]:
         """The first words of the names of all entries: "paint" of "paint/hall/bootstrap0"."""
