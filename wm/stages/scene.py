@@ -22,6 +22,7 @@ from wm.synth.backends import SceneContext
 from wm.synth.furnished import bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
+from wm.synth.room_names import unknown_rooms
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
@@ -100,6 +101,9 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
     if not config.furnish.enabled:
         return (), key
     if not run.folder.has("furnish", key):
+        unknown = unknown_rooms(room.name for room in context.plan.rooms)
+        if unknown:
+            print(f"furnish: no use is known of rooms named {', '.join(map(repr, unknown))}; the offline backends furnish them sparsely")
         with run.bar("furnish", len(context.plan.rooms)) as bar:
             objects = furnisher.furnish(context, done=bar.update)
         summary = codecs.object_summary(objects, [room.id for room in context.plan.rooms])

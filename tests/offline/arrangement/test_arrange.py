@@ -16,7 +16,8 @@ from wm.offline.arrangement.programmes import PROGRAMME
 from wm.offline.style.theme import style_of
 from wm.schema import NavigationSettings
 
-TYPES = tuple(PROGRAMME)
+TYPES = (*PROGRAMME, "utility", "other")
+"""Types of the rooms that most houses have; test_rooms_equipped.py is about the others."""
 THEMES = ("gothic mansion", "scandinavian flat", "beach house", "roman villa", "surreal dream", "cyberpunk")
 ROOMS = 42
 BEACH = "airy modern beach house with whitewashed boards, linen and driftwood"
