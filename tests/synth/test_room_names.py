@@ -68,8 +68,10 @@ def test_names(name, kind, furnished):
     [
         ("Küche", "kitchen"), ("Kueche", "kitchen"), ("Schlafzimmer", "bedroom"), ("Gäste-WC", "wc"), ("Waschküche", "laundry"),
         ("Büro", "office"), ("Hobbyraum", "workshop"), ("Raum 3", "room"), ("salle de bain", "bathroom"), ("chambre", "bedroom"),
-        ("salle à manger", "dining"), ("garde-manger", "pantry"), ("salon", "living"), ("entrée", "entrance"), ("baño", "bathroom"),
-        ("cocina", "kitchen"), ("habitación", "bedroom"), ("sótano", "cellar"), ("salle de jeux", "playroom"), ("COMEDOR", "dining"),
+        ("salle à manger", "dining"), ("garde-manger", "pantry"), ("salon", "living"), ("entrée", "entrance"),
+        ("baño", "bathroom"), ("cocina", "kitchen"), ("habitación", "bedroom"), ("sótano", "cellar"),
+        ("salle de jeux", "playroom"),
+        ("COMEDOR", "dining"),
     ],
 )  # fmt: skip
 def test_common_names_in_german_french_and_spanish(name, sort):

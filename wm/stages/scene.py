@@ -101,9 +101,9 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
     if not config.furnish.enabled:
         return (), key
     if not run.folder.has("furnish", key):
-        unknown = unknown_rooms(room.name for room in context.plan.rooms)
+        unknown = ", ".join(map(repr, unknown_rooms(room.name for room in context.plan.rooms)))
         if unknown:
-            print(f"furnish: no use is known of rooms named {', '.join(map(repr, unknown))}; the offline backends furnish them sparsely")
+            print(f"furnish: no use is known of rooms named {unknown}; the offline backends furnish them sparsely")
         with run.bar("furnish", len(context.plan.rooms)) as bar:
             objects = furnisher.furnish(context, done=bar.update)
         summary = codecs.object_summary(objects, [room.id for room in context.plan.rooms])

@@ -75,8 +75,8 @@ def _overlaps_flat(room: RoomArrangement, piece: Piece, x: float, y: float) -> b
 
 def mats(room: RoomArrangement, kind: str, *, most: int = 6) -> None:
     """Mats side by side across the middle of the floor."""
-    site, piece = room.layout.site, room.piece(kind)
-    w, d = (float(side) + 0.35 for side in piece.size[:2])
+    site, size = room.layout.site, KINDS[kind].high
+    w, d = size[0] + 0.35, size[1] + 0.35
     yaw = long_way(site)
     c, s = math.cos(yaw), math.sin(yaw)
     count = 0
@@ -85,7 +85,7 @@ def mats(room: RoomArrangement, kind: str, *, most: int = 6) -> None:
             dx, dy = column * w, row * d
             at = site.centre[0] + c * dx - s * dy, site.centre[1] + s * dx + c * dy
             if count < most:
-                count += room.layout.try_at(room.piece(kind, KINDS[kind].high), *at, yaw) is not None
+                count += room.layout.try_at(room.piece(kind, size), *at, yaw) is not None
 
 
 def on_the_wall(room: RoomArrangement, kind: str, middle: float, *, where: str = "centre") -> Placed | None:

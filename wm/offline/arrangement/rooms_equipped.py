@@ -154,7 +154,7 @@ EQUIPPED: dict[str, Equipped] = {
     ),
     # body and mind
     "gym": Equipped(
-        (walls("treadmill", "dumbbell rack"), middle("weight bench"), laid("yoga mat", 2), hung("mirror", 1.3)),
+        (walls("treadmill", "weight bench", "dumbbell rack"), laid("yoga mat", 2), hung("mirror", 1.3)),
         ("exercise bike", "treadmill", "punching bag", "lockers", "exercise bike"),
         sparse=0.8,
     ),

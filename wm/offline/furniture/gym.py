@@ -68,11 +68,11 @@ def weight_bench(style: Style, rng: np.random.Generator, size: Size) -> Model:
     parts = of(
         "leather", rounded_box((-0.15, -d / 2, 0.4), (0.15, d / 2 - 0.3, 0.48), 0.03), color=pick(rng, (BLACK, *style.accents))
     )
-    parts += of("dark_metal", box((-0.04, -d / 2 + 0.12, 0.34), (0.04, d / 2 - 0.05, 0.41)))
+    parts += of("dark_metal", box((-0.04, -d / 2 + 0.035, 0.34), (0.04, d / 2 - 0.05, 0.41)))
     parts += of(
         "dark_metal",
-        box((-0.26, -d / 2 + 0.1, 0.0), (0.26, -d / 2 + 0.17, 0.06)),
-        box((-0.03, -d / 2 + 0.11, 0.02), (0.03, -d / 2 + 0.16, 0.36)),
+        box((-0.4, -d / 2 + 0.02, 0.0), (0.4, -d / 2 + 0.1, 0.06)),
+        box((-0.03, -d / 2 + 0.04, 0.02), (0.03, -d / 2 + 0.1, 0.36)),
     )
     parts += of(
         "dark_metal", *posts((-0.42, 0.42), (y,), 0.0, h - 0.19, 0.06), box((-0.42, y - 0.025, 0.345), (0.42, y + 0.025, 0.405))
