@@ -108,6 +108,20 @@ MUST = {
     OTHER: "bench|chair|console table|plant",
 }
 """What stands in each sort of room: one of the alternatives between bars, and all that commas part."""
+HUNG = (
+    "hall",
+    "gallery",
+    "kitchen",
+    "utility",
+    "workshop",
+    "cinema",
+    "classroom",
+    "games",
+    "boiler room",
+    "throne room",
+    "closet",
+)
+"""Types of rooms with large things on their walls."""
 THEMES = ("scandinavian flat", "gothic mansion", "clockwork garden", "cyberpunk", "beach house", "roman villa")
 
 
@@ -160,7 +174,7 @@ def test_every_equipment_stands_somewhere():
 @pytest.mark.parametrize(("theme", "ceiling"), [("clockwork garden", 1.8), ("clockwork garden", 1.9), ("gothic mansion", 2.0)])
 def test_nothing_goes_through_the_floor_or_the_ceiling_of_a_low_room(theme, ceiling):
     site = make_site(shapely.box(0, 0, 5, 4), ceiling, [("door", np.array([[0.5, 0.0], [1.4, 0.0]]), 0.0, 1.75)])
-    for seed, kind in enumerate(sorted(set(ROOM_TYPES.values()))):
+    for seed, kind in enumerate(HUNG):
         for p in furnish_site(site, kind, style_of(theme), seed=seed, room=0):
             assert p.z >= -1e-9 and p.top <= ceiling, f"{p.piece.label} in a {kind}"
 
