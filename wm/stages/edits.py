@@ -8,6 +8,7 @@ configuration makes the file anew, or it cannot be read, it is first copied besi
 
 import shutil
 
+from wm import console
 from wm.artifacts import content_digest, file_digest
 from wm.stages.run_context import RunContext
 
@@ -39,7 +40,7 @@ def accept(run: RunContext, name: str, key: str, files: list[str], consequence: 
     """Records the edited files of an entry, and says what they redo. An edit that is recorded already is nothing new."""
     entry = run.folder.entry(name)
     if entry is None or entry["key"] != key:
-        print(f"{run.folder.path / files[-1]}: edited by hand, and used as it is; {consequence}")
+        console.say(f"{run.folder.path / files[-1]}: edited by hand, and used as it is; {consequence}")
         run.folder.record(name, key, files)
 
 
@@ -53,7 +54,7 @@ def keep_copy(run: RunContext, name: str, file: str, content: str) -> None:
     copy = path.with_name(f"{path.name}.before-{found[:8]}")
     if not copy.exists():
         shutil.copyfile(path, copy)
-    print(f"{path}: changed by hand, and now made again; what it was is kept in {copy.name}")
+    console.say(f"{path}: changed by hand, and now made again; what it was is kept in {copy.name}")
 
 
 def _edited(run: RunContext, name: str, key: str, digest: str) -> str:

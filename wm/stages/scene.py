@@ -4,7 +4,7 @@ import dataclasses
 import json
 import pathlib
 
-from wm import codecs
+from wm import codecs, console
 from wm.artifacts import file_digest, json_text, write_atomically
 from wm.geometry import (
     FloorPlan,
@@ -25,6 +25,7 @@ from wm.synth.backends import SceneContext
 from wm.synth.furnished import Furnisher, bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
+from wm.synth.room_names import unknown_rooms
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
@@ -102,7 +103,7 @@ def _told(file: pathlib.Path) -> FloorPlan:
     """A user's plan; what is not read or was changed in it is said."""
     reading = read_plan_file(file)
     for note in reading.notes:
-        print(f"{file}: {note}")
+        console.say(f"{file}: {note}")
     return reading.plan
 
 
@@ -142,6 +143,9 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
 
 def _made(run: RunContext, context: SceneContext, furnisher: Furnisher) -> tuple[SceneObject, ...]:
     """All objects of the scene as the backend furnishes it, with ids."""
+    unknown = ", ".join(map(repr, unknown_rooms(room.name for room in context.plan.rooms)))
+    if unknown:
+        console.say(f"furnish: no use is known of rooms named {unknown}; the offline backends furnish them sparsely")
     with run.bar("furnish", len(context.plan.rooms)) as bar:
         objects = furnisher.furnish(context, done=bar.update)
     return with_ids(objects, [room.id for room in context.plan.rooms])

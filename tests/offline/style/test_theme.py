@@ -102,7 +102,7 @@ def test_an_unknown_slot_is_named():
     ("name", "kind"),
     [
         ("Master Bedroom", "bedroom"), ("great hall", "hall"), ("dining hall", "dining"), ("hallway", "corridor"),
-        ("bath", "bathroom"), ("tea room", "living"), ("gear workshop", "utility"), ("moon bedroom", "bedroom"),
+        ("bath", "bathroom"), ("tea room", "living"), ("gear workshop", "workshop"), ("moon bedroom", "bedroom"),
         ("conservatory hall", "hall"), ("atrium", "hall"), ("Bathsheba", "other"), ("", "other"), ("living_room", "living"),
     ],
 )  # fmt: skip

@@ -17,7 +17,7 @@ _NOUNS: dict[str, tuple[str, ...]] = {
     "flat": ("rug", "carpet", "mat", "bathmat", "doormat", "runner"),
     "wall": (
         "picture", "painting", "poster", "mirror", "curtain", "drape", "tapestry", "sconce", "cupboard", "hood", "rail",
-        "artwork", "banner", "blind", "print",
+        "artwork", "banner", "blind", "print", "blackboard", "dartboard",
     ),
     "ceiling": ("chandelier", "pendant", "fan"),
     "object": (

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from wm.geometry.plan.site import Site
+from wm.offline.arrangement.equipped import Equipped
 from wm.offline.arrangement.groups import middle_piece
 from wm.offline.arrangement.hangings import curtain_pairs, hang, on_wall, wall_piece
 from wm.offline.arrangement.inventory import (
@@ -26,11 +27,17 @@ from wm.offline.arrangement.inventory import (
 from wm.offline.arrangement.layout import Layout, Placed
 from wm.offline.arrangement.programmes import PROGRAMME
 from wm.offline.arrangement.room_arrangement import RoomArrangement
+from wm.offline.arrangement.room_type import finish_type
+from wm.offline.arrangement.rooms_equipped import EQUIPPED
 from wm.offline.style.finish import Style
 from wm.types import SceneObject
 
 NARROW = 2.1
 """Metres of width below which a room is furnished as a corridor, whatever it is called."""
+
+
+LAMPED = (*PROGRAMME, "utility", "other")
+"""Types of rooms that a house has lamps of one sort for."""
 
 
 def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, density: float = 1.0) -> list[Placed]:
@@ -48,13 +55,14 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     kind = "corridor" if narrow and kind in ("hall", "gallery", "living", "other") else kind
     style = lamped(style, kind, seed)
     arrangement = RoomArrangement(layout, style, rng, density)
+    if kind in EQUIPPED:
+        equip(arrangement, kind, EQUIPPED[kind])
+        return layout.placed
     if kind != "bathroom" and rng.random() < 0.55 + 0.4 * style.form.softness:
         curtain_pairs(arrangement)
     PROGRAMME[kind](arrangement)
-    for name, middle, rooms in WALL_FEATURES.get(style.family, ()):
-        if kind in rooms.split():
-            wall_piece(arrangement, name, middle)
-    fill(arrangement, kind)
+    feature_walls(arrangement, kind)
+    fill(arrangement, kind, AT_WALL[kind], wanted(site, kind, density))
     for _ in range(2 if kind not in ("bathroom", "corridor", "kitchen", "dining") else 0):
         if arrangement.chance(0.9) and middle_piece(arrangement, kind) is None:
             break
@@ -63,10 +71,30 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     return layout.placed
 
 
+def equip(room: RoomArrangement, kind: str, equipped: Equipped) -> None:
+    """What makes a room of a type what it is, then what it may have besides."""
+    if equipped.soft and room.chance(0.8):
+        curtain_pairs(room)
+    for group in equipped.groups:
+        group(room)
+    feature_walls(room, kind)
+    fill(room, kind, equipped.walls, round(equipped.sparse * wanted(room.layout.site, kind, room.density)))
+    hang_lamps(room)
+    if equipped.soft:
+        hang_pictures(room, kind)
+
+
+def feature_walls(room: RoomArrangement, kind: str) -> None:
+    """The large things on the walls that the style's family has in rooms of a type."""
+    for name, middle, rooms in WALL_FEATURES.get(room.style.family, ()):
+        if kind in rooms.split():
+            wall_piece(room, name, middle)
+
+
 def lamped(style: Style, kind: str, seed: int) -> Style:
     """The style with the sort of lamp that rooms of a kind have in this house."""
-    sorts = lamp_sorts(style, kind)
-    pick = np.random.default_rng(np.random.SeedSequence([seed, list(PROGRAMME).index(kind), 5])).integers(len(sorts))
+    sorts, number = lamp_sorts(style, finish_type(kind)), LAMPED.index(finish_type(kind))
+    pick = np.random.default_rng(np.random.SeedSequence([seed, number, 5])).integers(len(sorts))
     return with_lamp(style, sorts[int(pick)])
 
 
@@ -76,16 +104,15 @@ def wanted(site: Site, kind: str, density: float) -> int:
     return round((base + 0.22 * min(site.polygon.area, 45.0)) * (0.3 + 0.7 * density))
 
 
-def fill(room: RoomArrangement, kind: str) -> None:
-    """Pieces along the walls until the room holds enough."""
+def fill(room: RoomArrangement, kind: str, choices: tuple[str, ...], target: int) -> None:
+    """Pieces along the walls, of `choices` and of what only the style's family has, until the room holds `target`."""
     absent = ABSENT.get(room.style.family, frozenset())
     special = [piece for piece, rooms in FLAVOUR.get(room.style.family, ()) if kind in rooms.split()]
     special = special if room.layout.site.polygon.area > 9 else special[:1]
-    usual = [piece for piece in AT_WALL[kind] if piece not in absent]
+    usual = [piece for piece in choices if piece not in absent]
     if kind not in ("library", "bathroom", "bedroom"):
         head = usual[:1]
         usual = head + [usual[1:][k] for k in room.rng.permutation(len(usual) - 1)] if usual else []
-    target = wanted(room.layout.site, kind, room.density)
     for name in [*special, *usual]:
         if sum(p.piece.support in ("floor", "flat") for p in room.layout.placed) >= target and name not in special:
             break

@@ -49,6 +49,9 @@ class Floor:
         """Square metres of the places that do not lie at the main way, as the unluckiest grid of navigation counts them."""
         main = max(shapely.get_parts(self.ways).tolist(), key=shapely.area, default=shapely.Polygon())
         rest = self.places.difference(main.buffer(STEP_ASIDE, quad_segs=4))
+        # A pocket behind a thin thing may lie near the main way and yet not be reached from it.
+        pockets = [part for part in shapely.get_parts(self.places).tolist() if not part.intersects(main)]
+        rest = shapely.union_all([rest, *pockets])
         return float(rest.buffer(HALF_CELL, join_style="mitre").area)
 
 

@@ -55,7 +55,7 @@ def on_wall(
 def wall_piece(
     room: RoomArrangement, kind: str, middle: float, *, size: tuple[float, float, float] | None = None
 ) -> Placed | None:
-    """A wall piece with its centre at a height, on any wall that has room for it."""
+    """A wall piece with its centre at a height, on any wall that has room for it; none where it is too tall for the room."""
     piece = room.piece(kind, size)
     z = min(middle, room.layout.site.ceiling - 0.08 - float(piece.size[2]) / 2) - float(piece.size[2]) / 2
     return room.layout.against_wall(piece, room.rng, gap=WALL_GAP, z=z, where="centre" if room.rng.random() < 0.6 else "any")

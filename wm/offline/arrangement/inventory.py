@@ -15,8 +15,6 @@ AT_WALL: dict[str, tuple[str, ...]] = {
     "hall": ("console table", "bench", "statue", "column", "plant", "grandfather clock", "armchair", "chest", "statue"),
     "gallery": ("statue", "column", "bench", "statue", "column", "plant", "bench", "console table"),
     "corridor": ("console table", "plant", "bench", "column", "chest", "floor lamp"),
-    "utility": ("bookshelf", "chest", "desk", "stool", "basket", "bookshelf", "basket", "wardrobe"),
-    "other": ("bookshelf", "armchair", "plant", "console table", "chest", "floor lamp", "bench"),
 }
 """What stands along the walls of a room, in the order in which it is tried, until the room holds enough."""
 
@@ -29,18 +27,18 @@ FLAVOUR: dict[str, tuple[tuple[str, str], ...]] = {
     "roman": (("column", "hall living dining gallery bathroom study"), ("statue", "dining bathroom gallery")),
     "baroque": (("candelabra", "hall dining bedroom living"), ("statue", "hall gallery")),
     "surreal": (
-        ("giant mushroom", "hall living bedroom corridor other utility"),
-        ("chess piece", "hall living dining library corridor gallery other utility"),
+        ("giant mushroom", "hall living bedroom corridor"),
+        ("chess piece", "hall living dining library corridor gallery"),
         ("giant mushroom", "hall living"),
     ),
     "japanese": (("folding screen", "living bedroom dining hall"),),
     "moroccan": (("folding screen", "living bedroom"), ("candelabra", "hall living")),
     "clockwork": (
-        ("gear sculpture", "hall living gallery utility"),
-        ("orrery", "hall living library study bedroom other"),
+        ("gear sculpture", "hall living gallery workshop"),
+        ("orrery", "hall living library study bedroom"),
         ("grandfather clock", "living dining bedroom corridor study"),
-        ("topiary", "hall living dining gallery other"),
-        ("planter", "hall living kitchen dining utility"),
+        ("topiary", "hall living dining gallery"),
+        ("planter", "hall living kitchen dining workshop"),
     ),
     "victorian": (("grandfather clock", "hall living library study"), ("globe", "living study")),
 }
@@ -49,10 +47,10 @@ FLAVOUR: dict[str, tuple[tuple[str, str], ...]] = {
 WALL_FEATURES: dict[str, tuple[tuple[str, float, str], ...]] = {
     "clockwork": (
         ("wall ivy", 1.25, "hall gallery living dining"),
-        ("skeleton wall clock", 1.8, "hall utility bedroom study library gallery dining kitchen corridor"),
-        ("wall pipes", 1.2, "utility kitchen bathroom"),
-        ("wall gears", 1.75, "hall utility living bedroom study corridor gallery other"),
-        ("wall ivy", 1.25, "hall gallery utility"),
+        ("skeleton wall clock", 1.8, "hall workshop bedroom study library gallery dining kitchen corridor"),
+        ("wall pipes", 1.2, "workshop utility kitchen bathroom"),
+        ("wall gears", 1.75, "hall workshop utility living bedroom study corridor gallery"),
+        ("wall ivy", 1.25, "hall gallery workshop utility"),
     ),
 }
 """Large things on the walls that only some families have, the height of their middles, and the room types they belong in."""

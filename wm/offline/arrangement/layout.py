@@ -91,7 +91,7 @@ class Layout:
         w, d, h = piece.size.tolist()
         placed = Placed(piece, UprightBox(x, y, z, yaw, w, d, h))
         footprint = placed.footprint
-        if not self.room.contains(footprint) or placed.top > self.site.ceiling - 0.001:
+        if not self.room.contains(footprint) or z < 0.0 or placed.top > self.site.ceiling - 0.001:
             return None
         if piece.support != "flat" and z < DOOR_HEADROOM and any(zone.intersects(footprint) for zone in self.site.keep):
             return None

@@ -1,17 +1,16 @@
 """What each type of room is for: which functional groups it gets, in which order."""
 
-import math
 from collections.abc import Callable
 
 import numpy as np
 import shapely
 
-from wm.geometry.plan.site import Site
+from wm.offline.arrangement.equipment import long_way
 from wm.offline.arrangement.groups import around_table, dining_group, hearth, rug_under, sitting, sleeping
 from wm.offline.arrangement.hangings import wall_piece
-from wm.offline.arrangement.layout import Placed
-from wm.offline.arrangement.room_arrangement import RoomArrangement, local
+from wm.offline.arrangement.room_arrangement import RoomArrangement
 from wm.offline.arrangement.wet_groups import bathing, cooking, island
+from wm.offline.arrangement.writing import writing
 from wm.offline.style.finish import PERIOD
 
 
@@ -65,32 +64,6 @@ def study(room: RoomArrangement) -> None:
     rug_under(room, *centre, 0.0, 2.2, 1.6)
 
 
-def writing(room: RoomArrangement, *, at_wall: bool) -> Placed | None:
-    """A desk with its chair: facing a wall, or free in the room with the chair behind it."""
-    seat = room.piece("office chair" if room.style.family not in PERIOD else "chair")
-    table = room.piece("desk")
-    mates = frozenset({"office chair", "chair"})
-    deep, sit = float(table.size[1]), float(seat.size[1])
-    placed = None
-    if not at_wall:
-        # the desk's front, where one sits, faces the wall: its back shows to the room
-        site = room.layout.site
-        for k in sorted(range(len(site.lengths)), key=lambda k: -float(site.lengths[k]) + float(room.rng.uniform(0, 2))):
-            normal, middle = site.normals[k], site.starts[k] + 0.5 * site.lengths[k] * site.directions[k]
-            x, y = (middle + (1.15 + deep / 2) * normal).tolist()
-            placed = placed or room.layout.try_at(
-                table, x, y, math.atan2(-float(normal[0]), float(normal[1])), front=0.75, mates=mates
-            )
-    if placed is None:
-        placed = room.layout.against_wall(table, room.rng, front=0.75, where="centre", mates=mates)
-    if placed is None:
-        return None
-    room.dressed(placed)
-    x, y = local(placed, float(room.rng.uniform(-0.1, 0.05)), -(deep + sit) / 2 - 0.04)
-    room.layout.try_at(seat, x, y, placed.yaw + math.pi + math.radians(float(room.rng.uniform(-3, 3))))
-    return placed
-
-
 def hall(room: RoomArrangement) -> None:
     site = room.layout.site
     if site.polygon.area > 22 and room.style.form.ornament > 0.3:
@@ -124,23 +97,8 @@ def corridor(room: RoomArrangement) -> None:
         wall_piece(room, "wall sconce", 1.75)
 
 
-def utility(room: RoomArrangement) -> None:
-    writing(room, at_wall=True)
-    room.at_wall("bookshelf", where="any")
-    wall_piece(room, "wall shelf", 1.55)
-
-
-def other(room: RoomArrangement) -> None:
-    sitting(room, hearth(room) if room.style.family in PERIOD else None)
-
-
-def long_way(site: Site) -> float:
-    """Direction (radians) of the longest wall."""
-    k = int(np.argmax(site.lengths))
-    return math.atan2(float(site.directions[k, 1]), float(site.directions[k, 0]))
-
-
 PROGRAMME: dict[str, Callable[[RoomArrangement], None]] = {
     "bedroom": bedroom, "living": living, "dining": dining, "kitchen": kitchen, "bathroom": bathroom, "library": library,
-    "study": study, "hall": hall, "gallery": gallery, "corridor": corridor, "utility": utility, "other": other,
+    "study": study, "hall": hall, "gallery": gallery, "corridor": corridor,
 }  # fmt: skip
+"""The rooms that most houses have; what stands in all others says a table (equipped.py)."""

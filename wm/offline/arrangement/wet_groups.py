@@ -87,6 +87,16 @@ def bathing(room: RoomArrangement) -> Placed | None:
     return bath or basin
 
 
+def lavatory(room: RoomArrangement) -> Placed | None:
+    """A toilet, a small washbasin under a mirror, a towel rail."""
+    toilet = room.at_wall("toilet", where="corner")
+    basin = room.at_wall("washbasin", size=(0.54, 0.45, 0.86))
+    if basin is not None:
+        on_wall(room, "mirror", basin, z=basin.z + 1.12, size=(0.5, 0.04, 0.7))
+    wall_piece(room, "towel rail", 0.95)
+    return toilet
+
+
 def island(room: RoomArrangement) -> Placed | None:
     """A kitchen island in the middle of the floor, with stools at its back."""
     site = room.layout.site

@@ -23,7 +23,7 @@
     clockwork  gear trains, orrery, pipes
 """
 
-from wm.offline.furniture.catalog import KINDS, make_piece
+from wm.offline.furniture.catalog import EQUIPMENT, KINDS, make_piece
 from wm.offline.furniture.piece import FurnitureKind, Piece, Top
 
-__all__ = ["KINDS", "FurnitureKind", "Piece", "Top", "make_piece"]
+__all__ = ["EQUIPMENT", "KINDS", "FurnitureKind", "Piece", "Top", "make_piece"]

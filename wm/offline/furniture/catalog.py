@@ -4,13 +4,30 @@ import numpy as np
 
 from wm.offline.furniture import (
     bath,
+    bathing,
     beds,
+    cabinets,
+    ceremony,
+    childhood,
+    cinema,
+    clinic,
     clockwork,
+    counters,
+    games,
+    garage,
     greenery,
+    gym,
+    hallway,
     kitchen,
+    laundry,
     lighting,
+    music,
+    outdoors,
+    school,
     sculpture,
     seating,
+    shelving,
+    stable,
     storage,
     tables,
     tabletop,
@@ -19,6 +36,27 @@ from wm.offline.furniture import (
 )
 from wm.offline.furniture.piece import FurnitureKind, Piece, Size, assemble
 from wm.offline.style.finish import Style
+
+EQUIPMENT: dict[str, FurnitureKind] = {
+    **bathing.KINDS,
+    **cabinets.KINDS,
+    **ceremony.KINDS,
+    **childhood.KINDS,
+    **cinema.KINDS,
+    **clinic.KINDS,
+    **counters.KINDS,
+    **games.KINDS,
+    **garage.KINDS,
+    **gym.KINDS,
+    **hallway.KINDS,
+    **laundry.KINDS,
+    **music.KINDS,
+    **outdoors.KINDS,
+    **school.KINDS,
+    **shelving.KINDS,
+    **stable.KINDS,
+}
+"""Kinds that belong in rooms of some sorts only: a treadmill stands in a gym, and nowhere else."""
 
 KINDS: dict[str, FurnitureKind] = {
     **seating.KINDS,
@@ -34,6 +72,7 @@ KINDS: dict[str, FurnitureKind] = {
     **kitchen.KINDS,
     **bath.KINDS,
     **clockwork.KINDS,
+    **EQUIPMENT,
 }
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from wm.offline.arrangement.furnishing import furnish_room, furnish_scene
 from wm.offline.arrangement.inventory import ABSENT, FLAVOUR
 from wm.offline.arrangement.room_type import room_type
-from wm.offline.furniture import KINDS, bath, kitchen, make_piece
+from wm.offline.furniture import EQUIPMENT, KINDS, bath, kitchen, make_piece
 from wm.offline.style.finish import Finish, Rgb, Style, Surfaces
 from wm.offline.style.style_sheet import mix_rgb
 from wm.offline.style.theme import style_of
@@ -157,7 +157,7 @@ def _rivals(thing: SceneObject, size: np.ndarray, room: str, family: str) -> lis
 
 def _belongs(kind: str, room: str, family: str) -> bool:
     """Whether a family would have a kind of furniture in a type of room."""
-    if kind in ABSENT.get(family, ()):
+    if kind in ABSENT.get(family, ()) or kind in EQUIPMENT:
         return False
     if kind in bath.KINDS or kind in kitchen.KINDS:
         return room == ("bathroom" if kind in bath.KINDS else "kitchen")

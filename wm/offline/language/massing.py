@@ -19,7 +19,7 @@ from wm.offline.language.rows import Cell, is_small, make_cells
 
 SKETCHES = 8
 _CAPACITY = {"corridor": 9, "hall": 8}  # cells that one core can serve
-_HUBS = ("great hall", "atrium", "hall", "gallery", "corridor")  # what leads best to other rooms first
+_HUBS = ("great hall", "atrium", "hall", "entrance", "gallery", "corridor")  # what leads best to other rooms first
 _QUARTER_TURNS = np.array([[[1, 0], [0, 1]], [[0, -1], [1, 0]], [[-1, 0], [0, -1]], [[0, 1], [-1, 0]]])
 
 

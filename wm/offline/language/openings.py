@@ -116,7 +116,7 @@ def _awkward(stretch: Stretch, spaces: Sequence[Space], hub: int) -> float:
         return tight
     if zones == {PUBLIC}:
         return 2.0 + tight
-    if zones == {PRIVATE, WET} or {a.name, b.name} == {"kitchen", "service"}:
+    if zones == {PRIVATE, WET} or ({a.name, b.name} & {"service", "pantry"} and "kitchen" in (a.name, b.name)):
         return 3.0 + tight
     return (6.0 if PUBLIC in zones else 9.0) + tight
 
@@ -189,7 +189,7 @@ def _windows(
     sill, head = round(100 * building.sill), min(round(100 * building.head), ceiling - 25)
     if zone == WET:
         width, sill = min(width, 80), min(140, head - 60)  # small and above eye level for those who sit
-    elif space.kind.name in ("kitchen", "service"):
+    elif space.kind.name in ("kitchen", "service", "pantry"):
         width, sill = min(width, 150), max(sill, 100)  # above the worktop
     wanted = 1 if zone == WET else max(1, math.ceil(space.area / 7))
     holes: list[Hole] = []

@@ -10,7 +10,7 @@ from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.plan.site import WallOpening, wall_opening
 from wm.geometry.rays.raycast import RayScene
-from wm.offline.arrangement.room_type import room_type
+from wm.offline.arrangement.room_type import finish_type, room_type
 from wm.offline.style.finish import Style
 from wm.offline.world.light import (
     BakeSettings,
@@ -114,7 +114,7 @@ def bake_settings(texel_size: float) -> BakeSettings:
 
 
 def _interior(plan: FloorPlan, room: int, style: Style, seed: int) -> Interior:
-    kind = room_type(plan.rooms[room].name)
+    kind = finish_type(room_type(plan.rooms[room].name))
     return Interior(
         name=plan.rooms[room].name,
         kind=kind,
