@@ -22,6 +22,7 @@ from wm.synth.backends import SceneContext
 from wm.synth.furnished import bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
+from wm.synth.seeds import seed_of
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
@@ -68,7 +69,8 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     config = run.config
     file = config.plan.file
     source = [file_digest(_user_file(file))] if file else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
-    key = run.key("plan", *source, config.plan.max_iterations)
+    seed = seed_of(config, "plan")
+    key = run.key("plan", *source, config.plan.max_iterations, seed)
     if not run.folder.has("plan", key):
         if file:
             plan = load_plan(pathlib.Path(file))
@@ -76,7 +78,7 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
         else:
             backend = make_backend("language", config.language)
             proposal = propose_plan(
-                backend, config.scene.theme, list(config.scene.rooms), seed=config.seed, max_iterations=config.plan.max_iterations
+                backend, config.scene.theme, list(config.scene.rooms), seed=seed, max_iterations=config.plan.max_iterations
             )
             plan = proposal.plan
             layout = {"source": config.language.backend, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}

@@ -26,6 +26,11 @@ class SceneContext:
     structure: Mesh  # without objects
     objects: tuple[SceneObject, ...]  # none while the scene is being furnished
     density: float = 1.0  # 0..1: share of the optional pieces of furniture that are wanted (furnish.density)
+    seeds: tuple[tuple[str, int], ...] = ()  # parts of the scene (furnish, finish, light) that draw from a seed of their own
+
+    def seed_of(self, part: str) -> int:
+        """The seed that a part of the scene draws from."""
+        return dict(self.seeds).get(part, self.seed)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from wm.offline.language.programme import room_kind_of
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import make_backend
 
-GRAMMAR = make(None, None)
+GRAMMAR = make(LanguageSettings(), None)
 THEMES = ["gothic revival mansion", "a tiny cabin", "airy modern beach house", "roman estate", "a dream", "nordic flat"]
 ROOMS = [
     "great hall", "entrance hall", "atrium", "corridor", "gallery", "library", "dining room", "kitchen", "bedroom", "bathroom",

@@ -1,10 +1,11 @@
 """Furnishes one room: functional groups by room type, pieces at the walls, pictures, lamps, curtains and clutter.
 
-All choices are drawn from np.random.SeedSequence([seed, room index, 4]): equal seeds give equal rooms, different seeds give
-different ones.
+All choices are drawn from np.random.SeedSequence([seed, number of the room, 4]): equal seeds give equal rooms, different seeds
+give different ones.
 """
 
 import math
+import zlib
 
 import numpy as np
 import shapely
@@ -38,6 +39,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
 
     Args:
       kind: room type, a value of room_type.ROOM_TYPES.
+      room: a number that tells the room from others (wm.synth.seeds.room_number).
       density: 0..1, the share of the optional pieces that are tried.
     """
     rng = np.random.default_rng(np.random.SeedSequence([seed, room, 4]))
@@ -66,7 +68,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
 def lamped(style: Style, kind: str, seed: int) -> Style:
     """The style with the sort of lamp that rooms of a kind have in this house."""
     sorts = lamp_sorts(style, kind)
-    pick = np.random.default_rng(np.random.SeedSequence([seed, list(PROGRAMME).index(kind), 5])).integers(len(sorts))
+    pick = np.random.default_rng(np.random.SeedSequence([seed, zlib.crc32(kind.encode()), 5])).integers(len(sorts))
     return with_lamp(style, sorts[int(pick)])
 
 

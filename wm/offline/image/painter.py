@@ -40,7 +40,7 @@ from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
 from wm.synth.registry import DRAWN
 from wm.types import OUTSIDE, Camera, SceneObject, View
 
-VERSION = "1"
+VERSION = "2"
 PROVIDES = (DRAWN,)
 SURE = 0.85
 """How far known a pixel must be before its tone counts: below, the condition is part grey depth."""

@@ -9,7 +9,7 @@ from wm.schema import BackendSettings
 from wm.synth.backends import SceneContext
 from wm.types import SceneObject
 
-VERSION = "1"
+VERSION = "2"
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
@@ -32,7 +32,8 @@ class ProceduralObjects:
         Raises:
           ValueError: the context's density is not a share.
         """
-        return furnish_room(context.plan, room, style_of(context.theme), seed=context.seed, density=context.density)
+        seed = context.seed_of("furnish")
+        return furnish_room(context.plan, room, style_of(context.theme), seed=seed, density=context.density)
 
 
 def make(settings: Settings, context: SceneContext | None = None) -> ProceduralObjects:
