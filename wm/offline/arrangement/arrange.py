@@ -27,6 +27,7 @@ from wm.offline.arrangement.inventory import (
 from wm.offline.arrangement.layout import Layout, Placed
 from wm.offline.arrangement.programmes import PROGRAMME
 from wm.offline.arrangement.room_arrangement import RoomArrangement
+from wm.offline.arrangement.wishes import granted
 from wm.offline.style.finish import Style
 from wm.types import SceneObject
 
@@ -62,7 +63,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
             break
     hang_lamps(arrangement)
     hang_pictures(arrangement, kind)
-    return layout.placed
+    return granted(layout.placed, style)
 
 
 def lamped(style: Style, kind: str, seed: int) -> Style:

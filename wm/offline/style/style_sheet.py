@@ -11,6 +11,11 @@ def rgb(code: str) -> Rgb:
     return int(code[0:2], 16) / 255, int(code[2:4], 16) / 255, int(code[4:6], 16) / 255
 
 
+def hex_code(color: Rgb) -> str:
+    """Six-digit hexadecimal code of a colour, clipped to [0, 1]."""
+    return "".join(f"{round(min(max(c, 0.0), 1.0) * 255):02x}" for c in color)
+
+
 def mix_rgb(a: Rgb, b: Rgb, share: float) -> Rgb:
     """a with `share` of b."""
     return a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share, a[2] + (b[2] - a[2]) * share
@@ -58,6 +63,9 @@ class StyleSheet:
     rooms: tuple[tuple[str, Finish, Finish], ...] = ()  # (room type, wall, floor) where they differ
     upholstery: str = "textile"
     leaf: str = "4e7a3a"
+    kin: str = ""  # family whose furniture a place takes; "" for its own
+    place: bool = False  # whether the sheet is of a place, whose surfaces stay where a theme names a style beside it
+    slots: tuple[tuple[str, Finish], ...] = ()  # furniture slots that differ from what the colours give
 
 
 def finish(
@@ -105,7 +113,7 @@ def build_style(theme: str, family: str, sheet: StyleSheet) -> Style:
         )
     rooms.setdefault("study", rooms.get("library", dry))
     rooms.setdefault("gallery", rooms.get("hall", dry))
-    slots = slot_finishes(sheet)
+    slots = slot_finishes(sheet) | dict(sheet.slots)
     return Style(theme, family, tuple(rooms.items()), tuple((s, slots[s]) for s in SLOTS), sheet.form, sheet.light,
                  tuple(rgb(c) for c in sheet.accents))  # fmt: skip
 
