@@ -49,6 +49,7 @@ class ReportData:
     timings: dict[str, dict[str, float]]
     history: Sequence[dict]
     video: bytes | None
+    heard: str = ""  # what was made of the theme's words, in one line
 
 
 def render_page(data: ReportData) -> str:

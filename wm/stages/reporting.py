@@ -47,6 +47,7 @@ def _page(run: RunContext, scene: Scene, painted: Painted, result: Reconstructed
     return ReportData(
         scene=run.config.scene.name,
         theme=run.config.scene.theme,
+        heard=scene.heard,
         variant=run.config.variant,
         preset=run.config.preset,
         seed=run.config.seed,

@@ -17,6 +17,7 @@ from wm.geometry import (
     place_heldout,
     plan_to_json,
 )
+from wm.stages.hearing import hear
 from wm.stages.run_context import RunContext
 from wm.synth.backends import SceneContext
 from wm.synth.furnished import bare_context, make_furnisher
@@ -39,6 +40,7 @@ class Scene:
     views: tuple[View, ...]
     heldout: tuple[View, ...]
     key: str
+    heard: str = ""  # what was made of the theme's words, in one line
 
     @property
     def objects(self) -> tuple[SceneObject, ...]:
@@ -51,6 +53,9 @@ class Scene:
 
 def build_scene(run: RunContext) -> Scene:
     """Builds the scene of a run. What the run folder already holds is read from there."""
+    heard = hear(run)
+    if heard:
+        print(f"theme: {heard}", flush=True)
     with run.stage("plan"):
         plan, plan_key = _plan(run)
     with run.stage("structure"):
@@ -62,7 +67,7 @@ def build_scene(run: RunContext) -> Scene:
         rays = build_ray_scene(mesh)
     with run.stage("cameras"):
         views, heldout = _cameras(run, plan, rays)
-    return Scene(plan=plan, context=context, mesh=mesh, rays=rays, views=views, heldout=heldout, key=key)
+    return Scene(plan=plan, context=context, mesh=mesh, rays=rays, views=views, heldout=heldout, key=key, heard=heard)
 
 
 def _plan(run: RunContext) -> tuple[FloorPlan, str]:

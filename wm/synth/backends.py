@@ -105,6 +105,24 @@ class ModelSettings:
     reconstruction: BackendSettings
 
 
+@dataclasses.dataclass(frozen=True)
+class HeardTheme:
+    """What a backend made of a theme's words; words and phrases as they were written, in lower case."""
+
+    used: tuple[str, ...]  # those that changed something
+    idle: tuple[str, ...] = ()  # those that it knows, and that change nothing beside the others
+    unknown: tuple[str, ...] = ()  # those that it does not know; words without meaning of their own are nowhere
+
+
+@runtime_checkable
+class HearingModule(Protocol):
+    """A backend's module that can tell what its backends hear of a theme. Models that read the whole text offer no such thing."""
+
+    def heard(self, theme: str) -> HeardTheme:
+        """What is used of a theme, and what is not known."""
+        ...
+
+
 @runtime_checkable
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:

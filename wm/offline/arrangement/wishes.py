@@ -1,6 +1,7 @@
 """What a theme asks of some kinds of furniture, done to the pieces of a furnished room: "a green sofa", "no curtains"."""
 
 import dataclasses
+import math
 
 import numpy as np
 
@@ -11,23 +12,23 @@ from wm.offline.style.finish import Rgb, Style, Wish
 
 
 def granted(placed: list[Placed], style: Style) -> list[Placed]:
-    """The pieces as the theme wants them. No piece moves: what is not wanted is only left out.
-
-    A piece that carries others stays, since these would hang in the air.
-    """
+    """The pieces as the theme wants them. No piece moves: what is not wanted is left out, with what stands on it."""
     for wish in style.wishes:
         if wish.absent:
-            placed = [one for one in placed if one.piece.label not in wish.kinds or _carries(one, placed)]
+            out = [one for one in placed if one.piece.label in wish.kinds]
+            placed = [one for one in placed if one not in out and not any(_stands_on(one, other) for other in out)]
         else:
             placed = [_changed(one, wish, style) if one.piece.label in wish.kinds else one for one in placed]
     return placed
 
 
-def _carries(one: Placed, placed: list[Placed]) -> bool:
-    if one.piece.support not in ("floor", "object") or not one.piece.tops:
+def _stands_on(one: Placed, other: Placed) -> bool:
+    if one.piece.support != "object" or not other.piece.tops:
         return False
-    reach = float(np.hypot(one.piece.size[0], one.piece.size[1])) / 2
-    return any(other.piece.support == "object" and np.hypot(other.x - one.x, other.y - one.y) < reach for other in placed)
+    c, s = math.cos(other.yaw), math.sin(other.yaw)
+    dx, dy = one.x - other.x, one.y - other.y
+    along, deep = abs(c * dx + s * dy), abs(c * dy - s * dx)
+    return along <= float(other.piece.size[0]) / 2 and deep <= float(other.piece.size[1]) / 2
 
 
 def _changed(one: Placed, wish: Wish, style: Style) -> Placed:

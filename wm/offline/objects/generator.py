@@ -5,8 +5,9 @@ import dataclasses
 from wm.bounds import setting
 from wm.offline.arrangement.furnishing import furnish_room
 from wm.offline.style.theme import style_of
+from wm.offline.style.words import read_theme
 from wm.schema import BackendSettings
-from wm.synth.backends import SceneContext
+from wm.synth.backends import HeardTheme, SceneContext
 from wm.types import SceneObject
 
 VERSION = "2"
@@ -39,3 +40,9 @@ class ProceduralObjects:
 def make(settings: Settings, context: SceneContext | None = None) -> ProceduralObjects:
     """The offline objects backend; it keeps nothing of the scene it is made for."""
     return ProceduralObjects()
+
+
+def heard(theme: str) -> HeardTheme:
+    """What the offline world makes of a theme's words."""
+    reading = read_theme(theme)
+    return HeardTheme(used=reading.used, idle=reading.idle, unknown=reading.unknown)

@@ -94,4 +94,5 @@ def _between(a: Light, b: Light, share: float) -> Light:
         lamp_color=mix_rgb(a.lamp_color, b.lamp_color, share),
         lamp_strength=along(a.lamp_strength, b.lamp_strength),
         fire_color=a.fire_color,
+        outlook=b.outlook if a.outlook == "country" else a.outlook,
     )

@@ -75,7 +75,9 @@ def _without(sheet: StyleSheet, color: Rgb) -> StyleSheet:
             return own
         return dataclasses.replace(own, colors=tuple(_other(c) for c in own.colors))
 
-    surfaces = {name: finish(getattr(sheet, name)) for name in ("wall", "floor", "ceiling", "trim", "wainscot", "wet_wall", "wet_floor")}
+    surfaces = {
+        name: finish(getattr(sheet, name)) for name in ("wall", "floor", "ceiling", "trim", "wainscot", "wet_wall", "wet_floor")
+    }
     rooms = tuple((kind, finish(wall) or wall, finish(floor) or floor) for kind, wall, floor in sheet.rooms)
     colors = {name: code(getattr(sheet, name)) for name in DYED}
     return dataclasses.replace(sheet, **surfaces, **colors, rooms=rooms, accents=tuple(code(c) for c in sheet.accents))

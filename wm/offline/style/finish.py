@@ -95,6 +95,10 @@ class Form:
     low: float = 1.0  # factor on seat and bed heights (a tea house sits low)
 
 
+OUTLOOKS: tuple[str, ...] = ("country", "space", "deep_sea", "open_sea", "ice", "dunes", "city")
+"""What may lie outside of the windows."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Light:
     """The scene's light: sun and sky through the windows, and lamps."""
@@ -108,6 +112,7 @@ class Light:
     lamp_color: Rgb
     lamp_strength: float  # 0..1
     fire_color: Rgb = (1.0, 0.55, 0.2)
+    outlook: str = "country"  # one of OUTLOOKS: what lies outside of the windows
 
 
 @dataclasses.dataclass(frozen=True)

@@ -8,17 +8,22 @@ from wm.offline.style.families import FAMILIES
 from wm.offline.style.vocabulary.colors import COLOR_SYNONYMS, COLORS, TONES, VIVID
 from wm.offline.style.vocabulary.materials import MATERIAL_SYNONYMS, MATERIAL_WORDS
 from wm.offline.style.vocabulary.moods import MOOD_OF_WORD
-from wm.offline.style.vocabulary.phrases import FILLERS, NEGATIONS, PHRASES
+from wm.offline.style.vocabulary.phrases import FILLERS, LISTED, NEGATIONS, PHRASES
 from wm.offline.style.vocabulary.targets import TARGET_SYNONYMS, TARGETS
 
-HINTS = frozenset(
-    """brass copper clock clean luxury hotel office urban villa temple museum theatre cinema tea country library garage neon
-    dreamlike dreamy magical enchanted whimsical fairy dream psychedelic clinic captain deck boat cozy cosy royal opulent
-    classical imperial mechanical gears gear sea island ocean cottage space ward keep cell spell lab mine spa inn workshop empire
-    english british french ancient glamour vintage retro sleek mountain harbour harbor coast doll alley opera robot lair forum mod
-    underground antique regal ballroom western ghost future garden floral workshop""".split()
-)
+_HINTS = """
+brass copper clock clean luxury hotel office urban villa temple museum theatre cinema tea country library garage neon
+dreamlike dreamy magical enchanted whimsical fairy dream psychedelic clinic captain deck boat cozy cosy royal opulent
+classical imperial mechanical gears gear sea island ocean cottage space ward keep cell spell lab mine spa inn workshop
+empire english british french ancient glamour vintage retro sleek mountain harbour harbor coast doll alley opera robot lair
+forum mod underground antique regal ballroom western ghost future garden floral tokyo kyoto osaka paris london vienna venice
+berlin athens rome newyork stockholm copenhagen oslo shanghai beijing havana marrakech istanbul miami
+"""
+HINTS = frozenset(_HINTS.split())
 """Words that say nothing of a family unless another of its words is there, or no other family is named."""
+
+BREAKS = frozenset({"with", "but", "yet", "plus"})
+"""Words that end what an adjective or a negation reaches."""
 
 FAMILY_OF_WORD: dict[str, tuple[str, ...]] = {}
 for _name, _sheet in FAMILIES.items():
@@ -96,6 +101,26 @@ def words_of(text: str) -> list[Word]:
             words.append(Word(plain[k][0], lemma_of(plain[k][0]), plain[k][1]))
             k += 1
     return words
+
+
+def negated(words: list[Word]) -> list[bool]:
+    """Of each word whether a negation before it reaches it; "carpet-free" negates backwards."""
+    reached, active, since = [], False, 0
+    for word in words:
+        if word.lemma in NEGATIONS:
+            active, since = True, 0
+            reached.append(False)
+            continue
+        if word.lemma in BREAKS or (word.lemma == "and" and since > 0):
+            active = False
+        reached.append(active)
+        since += word.lemma not in LISTED
+        if word.ends:
+            active = False
+    for k, word in enumerate(words):
+        if word.lemma == "free" and k:
+            reached[k - 1] = True
+    return reached
 
 
 def lemma_of(token: str) -> str:

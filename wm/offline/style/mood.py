@@ -30,8 +30,9 @@ def relit(light: Light, moods: tuple[str, ...]) -> Light:
         light = dataclasses.replace(light, sun_strength=light.sun_strength * 0.4, sky_strength=light.sky_strength * 0.5,
                                     lamp_color=rgb("ff9d42"), lamp_strength=1.0)  # fmt: skip
     if "neon" in moods:
-        light = dataclasses.replace(light, sky_color=rgb("b04ad8"), sky_strength=max(light.sky_strength, 0.45), sun_color=rgb("ff6ac0"),
-                                    lamp_color=mix_rgb(light.lamp_color, rgb("ff5ab0"), 0.35), lamp_strength=1.0)  # fmt: skip
+        outlook = "city" if light.outlook == "country" else light.outlook
+        light = dataclasses.replace(light, sky_color=rgb("4a3a8a"), sky_strength=min(light.sky_strength, 0.25), sun_strength=0.05,
+                                    lamp_strength=1.0, outlook=outlook)  # fmt: skip
     for mood, color in (("cold", "bcd8ff"), ("warm", "ffc890")):
         if mood in moods:
             light = dataclasses.replace(
@@ -64,9 +65,7 @@ def in_mood(style: Style, moods: tuple[str, ...]) -> Style:
     """The style in the moods of its theme."""
     rooms = tuple((kind, _surfaces(own, moods)) for kind, own in style.rooms)
     slots = tuple((name, _finish(own, moods)) for name, own in style.slots)
-    return dataclasses.replace(
-        style, light=relit(style.light, moods), form=reshaped(style.form, moods), rooms=rooms, slots=slots
-    )
+    return dataclasses.replace(style, light=relit(style.light, moods), form=reshaped(style.form, moods), rooms=rooms, slots=slots)
 
 
 def _surfaces(own: Surfaces, moods: tuple[str, ...]) -> Surfaces:
@@ -83,7 +82,9 @@ def _finish(own: Finish, moods: tuple[str, ...]) -> Finish:
     if own.material == "glow":
         return own
     if "worn" in moods:
-        own = dataclasses.replace(own, wear=max(own.wear, 0.75), colors=tuple(mix_rgb(c, rgb("6a6052"), 0.18) for c in own.colors))
+        own = dataclasses.replace(
+            own, wear=max(own.wear, 0.75), colors=tuple(mix_rgb(c, rgb("6a6052"), 0.18) for c in own.colors)
+        )
     for mood, color, share in (("pastel", "ffffff", 0.4), ("muted", "9a9890", 0.35)):
         if mood in moods:
             own = dataclasses.replace(own, colors=tuple(mix_rgb(c, rgb(color), share) for c in own.colors))

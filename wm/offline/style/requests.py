@@ -19,7 +19,8 @@ SORT_OF_MATERIAL: dict[str, str] = {
     "brick": "brick", "stone_blocks": "stone", "marble": "stone", "concrete": "stone", "rock": "stone", "sectile": "stone",
     "stone_tiles": "tile", "checker_tiles": "tile", "terracotta": "tile", "mosaic": "tile", "water_tiles": "tile",
     "carpet": "carpet", "leather": "leather", "metal": "metal", "riveted": "metal", "capsule": "plastic", "lacquer": "plastic",
-    "wallpaper_damask": "paper", "wallpaper_stripe": "paper", "wallpaper_gears": "paper", "plaster": "plaster", "fresco": "plaster",
+    "wallpaper_damask": "paper", "wallpaper_stripe": "paper", "wallpaper_gears": "paper", "plaster": "plaster",
+    "fresco": "plaster",
     "tatami": "cloth", "textile": "cloth", "velvet": "cloth", "woven": "cloth",
 }  # fmt: skip
 """Sort of MATERIAL_WORDS that each material of finish.MATERIALS is of."""
@@ -76,9 +77,7 @@ def _resurfaced(surfaces: Surfaces, kind: str, surface: str, request: Request, m
 def recolored(finish: Finish, color: Rgb) -> Finish:
     """The finish in a colour, its other colours as much lighter or darker than that as they were than its own."""
     base = _luminance(finish.colors[0])
-    others = tuple(
-        scaled_rgb(color, min(max((_luminance(c) + 0.05) / (base + 0.05), 0.55), 1.2)) for c in finish.colors[1:]
-    )
+    others = tuple(scaled_rgb(color, min(max((_luminance(c) + 0.05) / (base + 0.05), 0.55), 1.2)) for c in finish.colors[1:])
     return dataclasses.replace(finish, colors=(color, *others))
 
 
@@ -93,8 +92,14 @@ def _has_color(finish: Finish, color: Rgb) -> bool:
 def _with_slots(style: Style, target: Target, request: Request, material: MaterialWord | None) -> Style:
     """Slots of all furniture in a colour or a material; "red lanterns" also tint what the lamps give."""
     if material and request.target == "wood" and request.material != "wood":
-        colors = {"dark_wood": scaled_rgb(rgb(material.codes[0]), 0.7), "light_wood": mix_rgb(rgb(material.codes[0]), (1.0, 1.0, 1.0), 0.25)}
-        slots = tuple((name, recolored(f, colors.get(name, rgb(material.codes[0]))) if name in target.slots else f) for name, f in style.slots)
+        colors = {
+            "dark_wood": scaled_rgb(rgb(material.codes[0]), 0.7),
+            "light_wood": mix_rgb(rgb(material.codes[0]), (1.0, 1.0, 1.0), 0.25),
+        }
+        slots = tuple(
+            (name, recolored(f, colors.get(name, rgb(material.codes[0]))) if name in target.slots else f)
+            for name, f in style.slots
+        )
         return dataclasses.replace(style, slots=slots)
     color = rgb(request.color) if request.color else rgb(material.codes[0]) if material else None
     if color is None:
@@ -103,7 +108,7 @@ def _with_slots(style: Style, target: Target, request: Request, material: Materi
     slots = tuple((name, recolored(change.get(name, f), color) if name in target.slots else f) for name, f in style.slots)
     style = dataclasses.replace(style, slots=slots)
     if request.target == "lamp":
-        light = dataclasses.replace(style.light, lamp_color=mix_rgb(style.light.lamp_color, color, 0.3))
+        light = dataclasses.replace(style.light, lamp_color=mix_rgb(style.light.lamp_color, color, 0.6))
         style = dataclasses.replace(style, light=light)
     return style
 
@@ -114,7 +119,9 @@ def _without_material(style: Style, sort: str) -> Style:
     def other(finish: Finish | None, surface: str) -> Finish | None:
         if finish is None or SORT_OF_MATERIAL.get(finish.material) != sort:
             return finish
-        name, scale = ("plaster", 1.0) if surface != "floor" else ("wood_planks", 0.18) if sort != "wood" else ("stone_tiles", 0.5)
+        name, scale = (
+            ("plaster", 1.0) if surface != "floor" else ("wood_planks", 0.18) if sort != "wood" else ("stone_tiles", 0.5)
+        )
         if sort == "plaster":
             name = "wood_planks"
         grey = mix_rgb(finish.colors[0], rgb("b8b2a8"), 0.6) if sort == "wood" else finish.colors[0]

@@ -10,16 +10,14 @@ import dataclasses
 import functools
 
 from wm.offline.style.families import FAMILIES
-from wm.offline.style.lexicon import HINTS, Word, words_of
+from wm.offline.style.lexicon import BREAKS, HINTS, Word, negated, words_of
 from wm.offline.style.reading import Request, ThemeReading
 from wm.offline.style.style_sheet import hex_code, mix_rgb, rgb
 from wm.offline.style.vocabulary.colors import TONES, VIVID
 from wm.offline.style.vocabulary.materials import MATERIAL_WORDS
-from wm.offline.style.vocabulary.phrases import FILLERS, LISTED, NEGATIONS, POSTFIX
+from wm.offline.style.vocabulary.phrases import FILLERS, NEGATIONS, POSTFIX
 
 NEUTRAL = "modern"
-BREAKS = frozenset({"with", "but", "yet", "plus"})
-"""Words that end what an adjective or a negation reaches."""
 OWN: dict[str, frozenset[str]] = {
     "coastal": frozenset({"whitewashed", "board", "linen", "driftwood"}),
     "clockwork": frozenset({"brass", "moss", "glass", "copper", "glowing"}),
@@ -60,7 +58,7 @@ class _Reader:
 
     def __init__(self, words: list[Word]) -> None:
         self.words = words
-        self.negated = _negated(words)
+        self.negated = negated(words)
         self.families = _families(words, self.negated)
         self.own = frozenset().union(*(OWN.get(name, frozenset()) for name, _ in self.families[:1]))
         self.palette: list[str] = []
@@ -75,11 +73,11 @@ class _Reader:
         self.last_target: tuple[str, int] | None = None  # a noun that is still to be told its colour, and its place
 
     def read(self) -> None:
-        named = {name for name, _ in self.families}
+        named = {part for name, _ in self.families for part in (name, FAMILIES[name].kin)}
         for k, word in enumerate(self.words):
             if word.families:
                 self.known.add(k)
-                if not self.negated[k] and named & set(word.families):
+                if self.negated[k] or named & set(word.families):
                     self.used.add(k)
             self._take(k, word)
             if word.ends:
@@ -99,9 +97,7 @@ class _Reader:
             if self.pending and not word.target and word.lemma != "of":
                 self._flush()
         elif word.lemma == "and":
-            if self.pending.materials and not (after and (after.target or after.material)):
-                self._flush()
-            elif self.pending.materials and after and after.color:
+            if self.pending.materials and not (after and (after.target or after.material) and not after.color):
                 self._flush()
         elif word.tone and after is not None and self._goes_on(after):
             self.pending.tone = self.pending.tone or word.tone
@@ -114,11 +110,8 @@ class _Reader:
             self._adjective(k, self.pending.materials, word.material)
         elif word.mood:
             self.known.add(k)
-            if not self.negated[k]:
-                self.moods.append(word.mood)
-                self.used.add(k)
-            else:
-                self.used.add(k)
+            self.used.add(k)
+            self.moods += [] if self.negated[k] else [word.mood]
 
     def _is_own(self, k: int, word: Word) -> bool:
         """Whether the family is made of this anyway, or it is the surface of which that was just said."""
@@ -203,7 +196,7 @@ class _Reader:
 
     def reading(self) -> ThemeReading:
         self._mark()
-        idle = [k for k in sorted(self.known - self.used)]
+        idle = sorted(self.known - self.used)
         unknown = [
             word.text for k, word in enumerate(self.words)
             if k not in self.known and word.lemma not in FILLERS and word.lemma not in NEGATIONS and len(word.text) > 1
@@ -230,30 +223,11 @@ class _Reader:
                 self.used.add(k)
 
 
-def _negated(words: list[Word]) -> list[bool]:
-    """Of each word whether a negation before it reaches it; "carpet-free" negates backwards."""
-    reached, active, since = [], False, 0
-    for word in words:
-        if word.lemma in NEGATIONS:
-            active, since = True, 0
-            reached.append(False)
-            continue
-        if word.lemma in BREAKS or (word.lemma == "and" and since > 0):
-            active = False
-        reached.append(active)
-        since += word.lemma not in LISTED
-        if word.ends:
-            active = False
-    for k, word in enumerate(words):
-        if word.lemma == "free" and k:
-            reached[k - 1] = True
-    return reached
-
-
 def _families(words: list[Word], negated: list[bool]) -> tuple[tuple[str, float], ...]:
     """The families that make the theme's looks, with their share of the votes: one, a place and a style, or the two strongest.
 
-    Of equally strong ones the first to be named comes first.     The neutral family counts only where no other is named: a modern beach house is a beach house.
+    Of equally strong ones the first to be named comes first. The neutral family counts only where no other is named: a modern
+    beach house is a beach house.
     """
     votes: dict[str, list[int]] = {}
     for k, word in enumerate(words):
@@ -298,4 +272,3 @@ def _phrases(words: list[Word], used: set[int]) -> list[str]:
         else:
             phrases.append([k])
     return [" ".join(words[k].text for k in phrase) for phrase in phrases]
-

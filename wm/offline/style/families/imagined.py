@@ -52,7 +52,7 @@ CYBERPUNK = StyleSheet(
     accents=("e0309a", "10d0d8", "7a3ff0", "f0d020", "2f6af0", "ff6a3a"),
     upholstery="leather",
     leaf="2fae8a",
-    light=light("ff8ad0", 0.15, 12, 250, "5a4fd0", 0.45, "8ae8ff", 1.0),
+    light=light("ff8ad0", 0.15, 12, 250, "5a4fd0", 0.45, "8ae8ff", 1.0, "city"),
 )
 
 CLOCKWORK = StyleSheet(

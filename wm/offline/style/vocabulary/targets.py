@@ -89,6 +89,6 @@ TARGET_SYNONYMS: dict[str, str] = {
     "fern-pot": "plant", "greenery": "plant", "foliage": "plant", "sculpture": "statue", "bust": "statue", "column": "statue",
     "candlestick": "candle", "candelabra": "candle", "lantern": "lamp", "lampshade": "lamp", "chandelier": "lamp",
     "sconce": "lamp", "bulb": "lamp", "lighting": "lamp", "furnishing": "furniture", "woodwork": "wood", "fitting": "metal",
-    "fixture": "metal", "ceramics": "vase", "pottery": "vase", "toadstool": "mushroom", "bookshelves": "shelf",
-    "shelves": "shelf", "chequer": "tile", "desktop": "desk",
+    "fixture": "metal", "ceramics": "vase", "pottery": "vase", "toadstool": "mushroom",
+    "chequer": "tile", "desktop": "desk",
 }  # fmt: skip

@@ -31,7 +31,9 @@ def capsule(p: Points, finish: Finish, seed: int) -> MaterialSample:
     color = mix(ink(finish, 1, shade=0.4), color, face)
     inset = border(inside - F32(0.10), 0.012, p.footprint) * F32(0.35 * finish.contrast)
     color = mix(color, ink(finish, 1, shade=0.4), inset)
-    color = vary(color, piece_tone(column, row, seed=seed + 2, amount=0.02) + 0.015 * slow + 0.1 * stains(p, finish, seed=seed + 6))
+    color = vary(
+        color, piece_tone(column, row, seed=seed + 2, amount=0.02) + 0.015 * slow + 0.1 * stains(p, finish, seed=seed + 6)
+    )
     return MaterialSample(albedo=color, roughness=finish.roughness, height=(F32(0.02) * np.sqrt(swell)).astype(F32))
 
 
@@ -49,8 +51,9 @@ def riveted(p: Points, finish: Finish, seed: int) -> MaterialSample:
     rivet = edge(F32(0.013) - reach, p.footprint)
     joint = edge(F32(0.004) - rim, p.footprint)
     rust = fbm((p.u, p.v), wavelength=0.5, octaves=4, footprint=p.footprint, seed=seed, gain=0.6)
-    color = vary(mix(ink(finish, 0), ink(finish, 2, shade=0.85), np.clip(F32(0.5) + rust, 0, 1)),
-                 piece_tone(column, row, seed=seed + 2, amount=0.07 * finish.contrast) - F32(0.35 * finish.wear) * np.clip(rust, 0, 1))  # fmt: skip
+    tone = piece_tone(column, row, seed=seed + 2, amount=0.07 * finish.contrast)
+    tone = tone - F32(0.35 * finish.wear) * np.clip(rust, 0, 1)
+    color = vary(mix(ink(finish, 0), ink(finish, 2, shade=0.85), np.clip(F32(0.5) + rust, 0, 1)), tone)
     color = mix(vary(color, F32(0.25) * rivet), ink(finish, 1, shade=0.3), F32(0.85) * joint)
     height_map = F32(0.006) * np.sqrt(np.clip(F32(1) - (reach / F32(0.014)) ** 2, 0, 1)) - F32(0.004) * joint
     return MaterialSample(albedo=color, roughness=finish.roughness, metallic=0.35, height=height_map.astype(F32))
