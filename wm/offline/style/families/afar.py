@@ -81,7 +81,7 @@ SHIP = dataclasses.replace(
     rooms=(), wood="7d5230", dark_wood="3f2614", painted="2f3f3c", fabric="8a1f24", accent="c9a040", leather="54301a",
     linen="e2d3b0", rug="7a1f24", rug_border="c9a040", metal="3a3a3a", brass="c2933c", stone="8f8474", ceramic="a89a78",
     shade="ffca70", accents=("8a1f24", "c9a040", "1f3f54", "e2d3b0", "3f2614", "4f6a4a"),
-    light=light("ffd0a0", 0.4, 14, 225, "6fa0b8", 0.5, "ffae50", 0.95, "open_sea"),
+    light=light("ffd0a0", 0.4, 14, 225, "8ab8cc", 0.6, "ffae50", 0.95, "open_sea"),
 )  # fmt: skip
 
 CAVE = dataclasses.replace(
@@ -97,7 +97,7 @@ CAVE = dataclasses.replace(
     wet_wall=finish("rock", "7f7a70", "38342e", "645f57", scale=0.9, roughness=0.4),
     wet_floor=finish("rock", "6a655c", "38342e", "5a554d", scale=0.6, roughness=0.4),
     rooms=(), wood="6f4e30", dark_wood="42301e", fabric="8a6a48", accent="c4652a", rug="9a7a54", rug_border="5a4430",
-    stone="857664", upholstery="carpet", light=light("ffd8a8", 0.2, 20, 225, "8fa8b8", 0.25, "ff9a40", 1.0),
+    stone="857664", upholstery="carpet", light=light("ffd8a8", 0.2, 20, 225, "9fb4c4", 0.35, "ff9a40", 1.0),
 )  # fmt: skip
 
 TREEHOUSE = dataclasses.replace(

@@ -16,7 +16,7 @@ CASTLE = dataclasses.replace(
     floor=finish("stone_tiles", "857b6a", "4f4739", "746a5a", scale=0.7, roughness=0.8, wear=0.4),
     ceiling=finish("wood_planks", "5f4228", "2a1a0d", "4f3620", scale=0.35), rooms=(),
     fabric="8a1f24", accent="1f3f7a", rug="7a1f24", rug_border="c9a040", upholstery="textile",
-    light=light("ffdcb0", 0.4, 24, 200, "b0bcd0", 0.4, "ffa84c", 1.0),
+    light=light("ffdcb0", 0.4, 24, 200, "b8c4d8", 0.5, "ffa84c", 1.0),
 )  # fmt: skip
 
 WIZARD = dataclasses.replace(
@@ -34,7 +34,7 @@ WIZARD = dataclasses.replace(
         rug="3a2470",
     rug_border="d9b450", stone="6f6f90", ceramic="3f7a7a", shade="b08ae8", brass="d0a84a",
     accents=("5a2f8f", "2f8a7a", "d9b450", "2f3f8f", "8a2f5a", "c8b8e8"), leaf="3f8a6a",
-    light=light("b8a8ff", 0.35, 20, 200, "6f6fd0", 0.45, "ffc070", 0.95),
+    light=light("c8b8ff", 0.4, 20, 200, "a8a8e8", 0.6, "ffc070", 0.95),
 )  # fmt: skip
 
 CANDY = dataclasses.replace(

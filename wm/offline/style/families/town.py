@@ -150,7 +150,7 @@ PRISON = dataclasses.replace(
         scale=1.2, wear=0.5),
     trim=finish("metal", "2c2d2f", "4a4b4e", scale=0.05), rooms=(), wood="6f5a40", dark_wood="453828", painted="4f5854",
     fabric="6a6f60", accent="c9702a", rug="5a5a54", shade="c9c4a8",
-    light=light("dfe8f0", 0.2, 30, 215, "8f9ca8", 0.3, "ffe0a0", 0.6),
+    light=light("dfe8f0", 0.2, 30, 215, "a4b0bc", 0.4, "ffe0a0", 0.6),
 )  # fmt: skip
 
 GREENHOUSE = dataclasses.replace(

@@ -26,17 +26,18 @@ def space(across: np.ndarray, z: np.ndarray, sky: np.ndarray, texel: float, seed
     bright = random_cells(i, j, seed=seed) ** 5
     star = edge(F32(0.004) + F32(0.006) * bright - np.hypot(du, dv), max(texel, 0.006)) * bright
     view = _color((0.03, 0.04, 0.09)) + star * F32(1.5)
-    distance = np.hypot(across - np.round(across / F32(3.0)) * F32(3.0), (z - F32(0.55))) - F32(1.0)
-    planet = _color((0.25, 0.5, 0.8)) * (F32(0.4) + np.clip(z - F32(0.6), 0, 1))
-    view = view + (planet * F32(1.3) - view) * edge(-distance, max(texel, 0.01))
-    return view + _color((0.4, 0.7, 1.0)) * np.exp(-np.abs(distance) / F32(0.05)) * F32(0.5)
+    distance = np.hypot(across - np.round(across / F32(3.4)) * F32(3.4), z + F32(0.25)) - F32(1.75)
+    cloud = fbm((across, z * F32(2.5)), wavelength=0.6, octaves=4, footprint=texel, seed=seed + 2)
+    planet = _color((0.3, 0.6, 0.95)) + (_color((0.97, 0.98, 1.0)) - _color((0.3, 0.6, 0.95))) * np.clip(F32(0.3) + cloud, 0, 1)
+    view = view + (planet * F32(1.5) - view) * edge(-distance, max(texel, 0.01))
+    return view + _color((0.4, 0.7, 1.0)) * np.exp(-np.abs(distance) / F32(0.06)) * F32(0.6)
 
 
 def deep_sea(across: np.ndarray, z: np.ndarray, sky: np.ndarray, texel: float, seed: int) -> np.ndarray:
     """Water that darkens downwards, shafts of light, weed."""
     shaft = fbm((across + F32(0.35) * z, z * F32(0.05)), wavelength=0.5, octaves=3, footprint=texel, seed=seed)
-    depth = np.clip((z - F32(0.7)) / F32(1.6), 0, 1)
-    view = _color((0.02, 0.22, 0.3)) + (_color((0.25, 0.75, 0.8)) - _color((0.02, 0.22, 0.3))) * depth
+    depth = np.clip((z - F32(0.5)) / F32(1.3), 0, 1)
+    view = _color((0.02, 0.22, 0.3)) + (_color((0.3, 0.85, 0.88)) - _color((0.02, 0.22, 0.3))) * depth
     view = view * (F32(1) + F32(0.5) * shaft * depth)
     weed = fbm((across, z * F32(0.15)), wavelength=0.25, octaves=3, footprint=texel, seed=seed + 3)
     return view + (_color((0.03, 0.2, 0.15)) - view) * edge(F32(1.05) + F32(0.5) * weed - z, 0.03)
@@ -71,7 +72,8 @@ def dunes(across: np.ndarray, z: np.ndarray, sky: np.ndarray, texel: float, seed
 
 def city(across: np.ndarray, z: np.ndarray, sky: np.ndarray, texel: float, seed: int) -> np.ndarray:
     """Towers at night, some of their windows lit, a few in neon."""
-    view = _color((0.05, 0.04, 0.13)) + sky * F32(0.25) * np.exp(-np.abs(z - F32(HORIZON)) * F32(1.5))
+    haze = sky + _color((0.72, 0.45, 0.85))  # lamps below colour the clouds
+    view = haze * (F32(0.45) + F32(0.6) * np.exp(-np.abs(z - F32(HORIZON)) * F32(1.5)))
     for k, (width, low) in enumerate(((0.5, 1.75), (0.34, 1.35))):
         tower, _ = cells(across + F32(0.17 * k), width)
         top = F32(low) + F32(0.55) * random_cells(tower, np.full_like(tower, k), seed=seed)
@@ -86,7 +88,7 @@ def city(across: np.ndarray, z: np.ndarray, sky: np.ndarray, texel: float, seed:
         glow = np.where(
             hue < 0.25, _color((1.0, 0.3, 0.7)), np.where(hue < 0.45, _color((0.3, 0.9, 1.0)), _color((1.0, 0.8, 0.5)))
         )
-        wall = _color((0.08, 0.07, 0.14)) + glow * lit * F32(0.9)
+        wall = F32(0.3) * haze + glow * lit * F32(1.8)
         view = view + (wall - view) * edge(top - z, 0.01)
     return view
 
