@@ -171,6 +171,7 @@ def test_a_compound_theme_is_neither_of_its_parts():
     assert both.surfaces("living").wall.material == ship.surfaces("living").wall.material
     assert both.surfaces("living").wall.colors != ship.surfaces("living").wall.colors
     assert both.form.back == gothic.form.back and both.family == "gothic"
+    assert both.light.outlook == "space" and both.wishes == ship.wishes  # a spaceship has no fireplace, gothic or not
 
 
 @pytest.mark.parametrize(

@@ -41,6 +41,7 @@ def in_style(place: StyleSheet, style: StyleSheet) -> StyleSheet:
         wainscot_height=place.wainscot_height,
         rooms=(),
         place=True,
+        without=place.without,
         light=_between(place.light, style.light, 0.5),
         accents=tuple(a if k % 2 else b for k, (a, b) in enumerate(zip(place.accents, style.accents))),
     )
