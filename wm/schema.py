@@ -34,6 +34,7 @@ class PlanConfig:
     """Where the floor plan comes from."""
 
     file: str | None = setting(None, "A plan of the user's own; None asks the language backend.")
+    seed: int | None = number(None, 0, 2**63 - 1, "Seed of the floor plan; None: that of the run.", null="seed")
     max_iterations: int = number(8, 1, 1000, "Propose - validate - correct rounds before giving up.")
 
 
@@ -58,6 +59,21 @@ class CameraSettings:
 class FurnishConfig:
     enabled: bool = setting(True, "Put furniture into the rooms.")
     density: float = number(1.0, 0, 1, "Share of the optional pieces that are tried.")
+    seed: int | None = number(None, 0, 2**63 - 1, "Seed of the furniture; None: that of the run.", null="seed")
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class FinishConfig:
+    """Surfaces of rooms and furniture, as the offline image model finishes them."""
+
+    seed: int | None = number(None, 0, 2**63 - 1, "Seed of grain and stains; None: that of the run.", null="seed")
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class LightConfig:
+    """Light of the rooms, as the offline image model computes it."""
+
+    seed: int | None = number(None, 0, 2**63 - 1, "Seed of the rays of light; None: that of the run.", null="seed")
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
@@ -231,6 +247,8 @@ class RunConfig:
     plan: PlanConfig = field(default_factory=PlanConfig)
     cameras: CameraSettings = field(default_factory=CameraSettings)
     furnish: FurnishConfig = field(default_factory=FurnishConfig)
+    finish: FinishConfig = field(default_factory=FinishConfig)
+    light: LightConfig = field(default_factory=LightConfig)
     texture: TextureSettings = field(default_factory=TextureSettings)
     condition: ConditionConfig = field(default_factory=ConditionConfig)
     verify: VerifySettings = field(default_factory=VerifySettings)

@@ -50,6 +50,7 @@ class ReportData:
     timings: Rows
     history: Sequence[dict]
     video: bytes | None
+    heard: str = ""  # what was made of the theme's words, in one line
 
 
 def render_page(data: ReportData) -> str:

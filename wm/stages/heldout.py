@@ -30,7 +30,8 @@ class HeldOut:
 def render_heldout(run: RunContext, scene: Scene, image: ImageBackend) -> HeldOut:
     """Stores the true images of all held-out views. Only a `WorldBackend` has any; a real image model has none."""
     config = run.config
-    key = run.key("heldout", scene.key, config.scene.theme, config.cameras, *backend_key(config.image))
+    drawn = (config.cameras, config.finish, config.light)
+    key = run.key("heldout", scene.key, config.scene.theme, *drawn, *backend_key(config.image))
     with run.stage("heldout"):
         if not isinstance(image, WorldBackend):
             return HeldOut(known=False, key=key, run=run)

@@ -59,7 +59,7 @@ def is_painted(run: RunContext, scene: Scene) -> bool:
 def paint_key(run: RunContext, scene: Scene) -> str:
     """The key of every entry of the painting."""
     config = run.config
-    shown = (config.cameras, config.texture, config.condition, config.verify)
+    shown = (config.cameras, config.texture, config.condition, config.verify, config.finish, config.light)
     return run.key("paint", scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
 
 

@@ -60,6 +60,7 @@ def _page(run: RunContext, scene: Scene, painted: Painted, result: Reconstructed
     return ReportData(
         scene=shown(run.config.scene.name),
         theme=shown(run.config.scene.theme),
+        heard=scene.heard,
         variant=shown(run.config.variant),
         preset=shown(run.config.preset),
         seed=run.config.seed,

@@ -20,12 +20,14 @@ from wm.geometry.plan.loading import read_plan_file
 from wm.schema import ObjectsSettings, RunConfig
 from wm.stages import edits
 from wm.stages.arranged import ArrangementError, arranged, is_json, with_ids
+from wm.stages.hearing import hear
 from wm.stages.run_context import RunContext
 from wm.synth.backends import SceneContext
 from wm.synth.furnished import Furnisher, bare_context, make_furnisher
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
 from wm.synth.room_names import unknown_rooms
+from wm.synth.seeds import seed_of
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
@@ -44,6 +46,7 @@ class Scene:
     views: tuple[View, ...]
     heldout: tuple[View, ...]
     key: str
+    heard: str = ""  # what was made of the theme's words, in one line
 
     @property
     def objects(self) -> tuple[SceneObject, ...]:
@@ -56,6 +59,9 @@ class Scene:
 
 def build_scene(run: RunContext) -> Scene:
     """Builds the scene of a run. What the run folder already holds is read from there."""
+    heard = hear(run)
+    if heard:
+        console.say(f"theme: {heard}")
     with run.stage("plan"):
         plan, plan_key = _plan(run)
     with run.stage("structure", stores=False):
@@ -67,14 +73,15 @@ def build_scene(run: RunContext) -> Scene:
         rays = build_ray_scene(mesh)
     with run.stage("cameras"):
         views, heldout = _cameras(run, plan, rays)
-    return Scene(plan=plan, context=context, mesh=mesh, rays=rays, views=views, heldout=heldout, key=key)
+    return Scene(plan=plan, context=context, mesh=mesh, rays=rays, views=views, heldout=heldout, key=key, heard=heard)
 
 
 def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     config = run.config
     file = config.plan.file
     source = [file_digest(_user_file(file))] if file else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
-    key = run.key("plan", *source, config.plan.max_iterations)
+    seed = seed_of(config, "plan")
+    key = run.key("plan", *source, config.plan.max_iterations, seed)
     edited = edits.edited_key(run, "plan", PLAN, key)
     if edited is not None and is_json((run.folder.path / PLAN).read_bytes()):
         plan = _told(run.folder.path / PLAN)
@@ -87,7 +94,7 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
         else:
             backend = make_backend("language", config.language)
             proposal = propose_plan(
-                backend, config.scene.theme, list(config.scene.rooms), seed=config.seed, max_iterations=config.plan.max_iterations
+                backend, config.scene.theme, list(config.scene.rooms), seed=seed, max_iterations=config.plan.max_iterations
             )
             plan = proposal.plan
             layout = {"source": config.language.backend, "iterations": proposal.iterations, "seconds": round(proposal.seconds, 3)}

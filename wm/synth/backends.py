@@ -26,6 +26,11 @@ class SceneContext:
     structure: Mesh  # without objects
     objects: tuple[SceneObject, ...]  # while the scene is being furnished, those that the plan lists itself
     density: float = 1.0  # 0..1: share of the optional pieces of furniture that are wanted (furnish.density)
+    seeds: tuple[tuple[str, int], ...] = ()  # parts of the scene (furnish, finish, light) that draw from a seed of their own
+
+    def seed_of(self, part: str) -> int:
+        """The seed that a part of the scene draws from."""
+        return dict(self.seeds).get(part, self.seed)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -98,6 +103,24 @@ class ModelSettings:
     depth: BackendSettings
     segmentation: BackendSettings
     reconstruction: BackendSettings
+
+
+@dataclasses.dataclass(frozen=True)
+class HeardTheme:
+    """What a backend made of a theme's words; words and phrases as they were written, in lower case."""
+
+    used: tuple[str, ...]  # those that changed something
+    idle: tuple[str, ...] = ()  # those that it knows, and that change nothing beside the others
+    unknown: tuple[str, ...] = ()  # those that it does not know; words without meaning of their own are nowhere
+
+
+@runtime_checkable
+class HearingModule(Protocol):
+    """A backend's module that can tell what its backends hear of a theme. Models that read the whole text offer no such thing."""
+
+    def heard(self, theme: str) -> HeardTheme:
+        """What is used of a theme, and what is not known."""
+        ...
 
 
 @runtime_checkable

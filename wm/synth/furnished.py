@@ -12,6 +12,7 @@ from wm.schema import RunConfig
 from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, close_backend, make_backend, model_settings
+from wm.synth.seeds import PARTS, seed_of
 from wm.types import SceneObject
 
 
@@ -44,14 +45,15 @@ def make_furnisher(config: RunConfig, context: SceneContext) -> Furnisher:
         return Furnisher(backend, own)
     models = model_settings(config)
     asked = (models.image, models.depth, models.segmentation, models.reconstruction)
-    return Furnisher(backend.with_models(models), (*own, *(part for settings in asked for part in backend_key(settings))))
+    drawn = (config.finish, config.light)  # what an image shows of furniture depends on these
+    return Furnisher(backend.with_models(models), (*own, *drawn, *(part for settings in asked for part in backend_key(settings))))
 
 
 def bare_context(config: RunConfig, plan: FloorPlan) -> SceneContext:
     """The scene of a configuration before it is furnished; it holds what the plan lists itself."""
     return SceneContext(
         theme=config.scene.theme, seed=config.seed, plan=plan, structure=build_structure(plan), objects=plan_objects(plan),
-        density=config.furnish.density,
+        density=config.furnish.density, seeds=tuple((part, seed_of(config, part)) for part in PARTS),
     )  # fmt: skip
 
 
@@ -74,5 +76,5 @@ def _plan(config: RunConfig) -> FloorPlan:
     if config.plan.file is not None:
         return load_plan(pathlib.Path(config.plan.file))
     language = make_backend("language", config.language)
-    iterations = config.plan.max_iterations
-    return propose_plan(language, config.scene.theme, list(config.scene.rooms), seed=config.seed, max_iterations=iterations).plan
+    seed, iterations = seed_of(config, "plan"), config.plan.max_iterations
+    return propose_plan(language, config.scene.theme, list(config.scene.rooms), seed=seed, max_iterations=iterations).plan

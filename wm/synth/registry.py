@@ -12,6 +12,7 @@ The key of a stage whose result depends on a backend contains its path, its sett
     PROVIDES                -> of an image backend: what its results contain beyond the protocol, such as DRAWN
     REQUIRES                -> what it needs from PROVIDES of the selected image backend
     USES                    -> the other groups of backends that it uses
+    heard(theme)            -> which words of a theme it uses and which it does not know (HeardTheme)
 """
 
 import importlib
@@ -24,6 +25,8 @@ from wm.schema import BackendSettings, RunConfig
 from wm.synth.backends import (
     ClosableBackend,
     DepthBackend,
+    HeardTheme,
+    HearingModule,
     ImageBackend,
     LanguageBackend,
     ModelSettings,
@@ -115,6 +118,29 @@ def model_settings(config: RunConfig) -> ModelSettings:
     """The settings of the models of a run, for an image-driven objects backend."""
     return ModelSettings(
         image=config.image, depth=config.depth, segmentation=config.segmentation, reconstruction=config.reconstruction
+    )
+
+
+def heard_theme(config: RunConfig) -> HeardTheme | None:
+    """What the backends that a run asks make of its theme, all of them together; None if none of them can tell.
+
+    A word is unknown if it is to every backend that can tell.
+    """
+    theme = config.scene.theme
+    asked = [config.image] + [config.objects] * config.furnish.enabled + [config.language] * (config.plan.file is None)
+    modules = [backend_module(settings.backend) for settings in asked]
+    answers = [module.heard(theme) for module in modules if isinstance(module, HearingModule)]
+    if not answers:
+        return None
+    used, idle, unknown = (
+        sorted({word for answer in answers for word in getattr(answer, kind)}, key=lambda word: (theme.lower().find(word), word))
+        for kind in ("used", "idle", "unknown")
+    )
+    words = {word for phrase in used for word in phrase.split()}
+    return HeardTheme(
+        used=tuple(phrase for phrase in used if not any(phrase != other and f" {phrase} " in f" {other} " for other in used)),
+        idle=tuple(word for word in idle if word not in words),
+        unknown=tuple(word for word in unknown if all(word in answer.unknown for answer in answers)),
     )
 
 

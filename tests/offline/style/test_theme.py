@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -25,7 +26,8 @@ FAMILY = {
     "japanese tea house": "japanese",
     "modern luxury penthouse": "modern",
     "": "neutral",
-    "a submarine": "neutral",
+    "a submarine": "industrial",  # whose furniture it takes
+    "an observatory": "neutral",
     "ungothical": "neutral",
 }
 
@@ -52,10 +54,10 @@ def test_every_text_gives_a_complete_style(theme):
 
 
 def test_unknown_themes_differ_and_one_theme_never_does():
-    first, second = style_of("a submarine"), style_of("an observatory")
+    first, second = style_of("a planetarium"), style_of("an observatory")
     assert first.slots != second.slots
     style_of.cache_clear()
-    assert style_of("a submarine") == first
+    assert style_of("a planetarium") == first
 
 
 def test_case_and_punctuation_do_not_matter():
@@ -65,15 +67,13 @@ def test_case_and_punctuation_do_not_matter():
 def test_words_change_what_the_family_left_open():
     assert style_of("gothic mansion at midnight").light.sun_strength < style_of("gothic mansion").light.sun_strength
     assert style_of("scandinavian flat with marble floors").surfaces("living").floor.material == "marble"
-    assert (
-        style_of("scandinavian flat with red sofas").slot("fabric").colors != style_of("scandinavian flat").slot("fabric").colors
-    )
+    assert style_of("scandinavian flat in red").slot("fabric").colors != style_of("scandinavian flat").slot("fabric").colors
     assert style_of("ornate roman villa").form.ornament > style_of("roman villa").form.ornament
 
 
 def test_coloured_walls_do_not_dye_the_sofas():
-    plain, walls, sofas = (style_of(f"scandinavian flat {words}") for words in ("", "with red walls", "with red sofas"))
-    assert walls.slot("fabric") == plain.slot("fabric") != sofas.slot("fabric")
+    plain, walls, red = (style_of(f"scandinavian flat {words}") for words in ("", "with red walls", "in red"))
+    assert walls.slot("fabric") == plain.slot("fabric") != red.slot("fabric")
 
 
 def test_a_family_with_marble_of_its_own_keeps_it():
@@ -108,3 +108,75 @@ def test_an_unknown_slot_is_named():
 )  # fmt: skip
 def test_room_names(name, kind):
     assert room_type(name) == kind
+
+
+YELLOW = (0xE0 / 255, 0xB8 / 255, 0x3F / 255)
+
+
+@pytest.mark.parametrize("place", ["", "gothic", "igloo", "space station", "rustic cabin", "roman villa", "japanese", "loft"])
+def test_yellow_walls_are_yellow_in_every_room_of_every_place(place):
+    style = style_of(f"{place} with yellow walls")
+    assert all(surfaces.wall.colors[0] == pytest.approx(YELLOW) for _, surfaces in style.rooms)
+
+
+def test_a_green_sofa_leaves_everything_else():
+    plain, green = style_of("gothic mansion"), style_of("gothic mansion and a green velvet sofa")
+    assert (green.rooms, green.slots, green.form, green.light) == (plain.rooms, plain.slots, plain.form, plain.light)
+    (wish,) = green.wishes
+    assert wish.kinds == ("sofa",) and wish.slot == "velvet" and wish.color == pytest.approx((0x4A / 255, 0x7A / 255, 0x4A / 255))
+
+
+def test_an_unknown_theme_does_not_turn_for_words_that_are_known():
+    plain, green = style_of("glimmerwick"), style_of("glimmerwick with a green sofa")
+    assert plain.slots == green.slots and plain.rooms == green.rooms
+
+
+def test_red_lanterns_have_red_shades():
+    red, green, blue = style_of("ramen bar with red lanterns").slot("lamp_shade").colors[0]
+    assert red > 2 * max(green, blue)
+
+
+PLACES = [
+    "1970s space station, orange plastic and white curved panels", "ramen bar in Tokyo at night, neon, red lanterns", "igloo",
+    "submarine", "hospital", "pirate ship", "wizard's tower", "school", "bakery", "diner", "cave", "treehouse", "castle", "loft",
+    "temple", "farmhouse", "library", "sauna", "egyptian", "circus",
+]  # fmt: skip
+
+
+def test_no_two_places_look_alike():
+    looks = {}
+    for place in PLACES:
+        living, style = style_of(place).surfaces("living"), style_of(place)
+        looks[place] = np.array([*living.wall.colors[0], *living.floor.colors[0], *style.slot("fabric").colors[0]])
+    apart = {(a, b): np.abs(looks[a] - looks[b]).max() for a in PLACES for b in PLACES if a < b}
+    assert min(apart.values()) > 0.12, min(apart, key=apart.get)
+
+
+def test_no_carpets_and_no_wood_leave_none():
+    style = style_of("1970s flat, no carpets, without wood")
+    materials = {f.material for _, s in style.rooms for f in (s.wall, s.floor, s.ceiling, s.trim, s.wainscot) if f is not None}
+    assert not materials & {"carpet", "wood_planks", "parquet", "herringbone", "panelling", "wood"}
+    assert style.slot("dark_wood").material != "wood"
+    assert any(wish.absent and "rug" in wish.kinds for wish in style.wishes)
+
+
+def test_an_unwanted_color_is_gone():
+    for style in (style_of("gothic mansion, no red"), style_of("chinese palace without red")):
+        seen = [f.colors[0] for _, s in style.rooms for f in (s.wall, s.floor)] + [style.slot("fabric").colors[0], *style.accents]
+        assert not any(r > 0.4 and r > 2 * max(g, b) for r, g, b in seen)
+
+
+def test_a_compound_theme_is_neither_of_its_parts():
+    ship, gothic, both = (style_of(theme) for theme in ("spaceship", "gothic", "gothic spaceship"))
+    assert both.surfaces("living").wall.material == ship.surfaces("living").wall.material
+    assert both.surfaces("living").wall.colors != ship.surfaces("living").wall.colors
+    assert both.form.back == gothic.form.back and both.family == "gothic"
+    assert both.light.outlook == "space" and both.wishes == ship.wishes  # a spaceship has no fireplace, gothic or not
+
+
+@pytest.mark.parametrize(
+    ("words", "less"), [("at night", True), ("in fog", True), ("by candlelight", True), ("sunny", False), ("not dark", None)]
+)
+def test_moods_change_the_sun(words, less):
+    plain, moody = style_of("gothic mansion").light.sun_strength, style_of(f"gothic mansion, {words}").light.sun_strength
+    assert moody == plain if less is None else (moody < plain) == less

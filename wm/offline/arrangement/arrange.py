@@ -1,10 +1,11 @@
 """Furnishes one room: functional groups by room type, pieces at the walls, pictures, lamps, curtains and clutter.
 
-All choices are drawn from np.random.SeedSequence([seed, room index, 4]): equal seeds give equal rooms, different seeds give
-different ones.
+All choices are drawn from np.random.SeedSequence([seed, number of the room, 4]): equal seeds give equal rooms, different seeds
+give different ones.
 """
 
 import math
+import zlib
 
 import numpy as np
 import shapely
@@ -29,6 +30,7 @@ from wm.offline.arrangement.programmes import PROGRAMME
 from wm.offline.arrangement.room_arrangement import RoomArrangement
 from wm.offline.arrangement.room_type import finish_type
 from wm.offline.arrangement.rooms_equipped import EQUIPPED
+from wm.offline.arrangement.wishes import granted
 from wm.offline.style.finish import Style
 from wm.types import SceneObject
 
@@ -45,6 +47,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
 
     Args:
       kind: room type, a value of room_type.ROOM_TYPES.
+      room: a number that tells the room from others (wm.synth.seeds.room_number).
       density: 0..1, the share of the optional pieces that are tried.
     """
     rng = np.random.default_rng(np.random.SeedSequence([seed, room, 4]))
@@ -68,7 +71,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
             break
     hang_lamps(arrangement)
     hang_pictures(arrangement, kind)
-    return layout.placed
+    return granted(layout.placed, style)
 
 
 def equip(room: RoomArrangement, kind: str, equipped: Equipped) -> None:
@@ -93,8 +96,8 @@ def feature_walls(room: RoomArrangement, kind: str) -> None:
 
 def lamped(style: Style, kind: str, seed: int) -> Style:
     """The style with the sort of lamp that rooms of a kind have in this house."""
-    sorts, number = lamp_sorts(style, finish_type(kind)), LAMPED.index(finish_type(kind))
-    pick = np.random.default_rng(np.random.SeedSequence([seed, number, 5])).integers(len(sorts))
+    sorts = lamp_sorts(style, finish_type(kind))
+    pick = np.random.default_rng(np.random.SeedSequence([seed, zlib.crc32(kind.encode()), 5])).integers(len(sorts))
     return with_lamp(style, sorts[int(pick)])
 
 

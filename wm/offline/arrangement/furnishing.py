@@ -9,6 +9,7 @@ from wm.offline.arrangement.room_type import room_type
 from wm.offline.style.finish import Style
 from wm.offline.style.theme import style_of
 from wm.synth.backends import SceneContext
+from wm.synth.seeds import room_number
 from wm.types import SceneObject
 
 
@@ -28,7 +29,8 @@ def furnish_room(
     if not 0.0 <= density <= 1.0:
         raise ValueError(f"furnish.density is {density}; it is the share of the optional pieces, between 0 and 1")
     placed = furnish_site(
-        room_site(plan, room, around), room_type(plan.rooms[room].name), style, seed=seed, room=room, density=density
+        room_site(plan, room, around), room_type(plan.rooms[room].name), style, seed=seed, room=room_number(plan, room),
+        density=density,
     )
     return [scene_object(piece, room) for piece in placed]
 
@@ -39,5 +41,5 @@ def furnish_scene(context: SceneContext) -> tuple[SceneObject, ...]:
     return tuple(
         thing
         for room in rooms
-        for thing in furnish_room(context.plan, room, style, seed=context.seed, density=context.density)
+        for thing in furnish_room(context.plan, room, style, seed=context.seed_of("furnish"), density=context.density)
     )

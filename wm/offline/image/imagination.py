@@ -29,6 +29,8 @@ CEILINGS = (("paint", 0.1), ("plaster", 1.0), ("wood_planks", 0.2))
 """The materials that an imagined surface may have, each with the length of its pattern in metres."""
 WOODEN = frozenset({"panelling", "wood_planks", "herringbone", "parquet"})
 """Materials in the colour of the theme's woods."""
+SURFACES, BOXES, FURNITURE = 1, 2, 3
+"""What numbers are drawn for: finishes, furniture in the scene's boxes, furniture in other places."""
 RIVALS = 5
 """Number of kinds, those of the most similar proportions, from which the substitute of an object is drawn."""
 STRETCH = 2.2
@@ -61,7 +63,7 @@ def imagined_scene(context: SceneContext, which: Imagination) -> SceneContext:
 def imagined_style(context: SceneContext, which: Imagination) -> Style:
     """The style of a world. It depends on the world's finish only, not on its furniture."""
     style = style_of(context.theme)
-    return refinished(style, _dice(context, which.surfaces, 1)) if which.surfaces else style
+    return refinished(style, _dice(context, which.surfaces, SURFACES)) if which.surfaces else style
 
 
 def refinished(style: Style, rng: np.random.Generator) -> Style:
@@ -112,7 +114,7 @@ def _recolored(finish: Finish, accents: tuple[Rgb, ...], rng: np.random.Generato
 
 def boxed_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ...]:
     """For every object of the scene another that fills its box: of another kind, style and colours."""
-    rng = _dice(context, number, 2)
+    rng = _dice(context, number, BOXES)
     style = restyled(style_of(context.theme), rng)
     rooms = [room_type(room.name) for room in context.plan.rooms]
     return tuple(_stand_in(thing, rooms[thing.room], style, rng) for thing in context.objects)
@@ -167,7 +169,7 @@ def _belongs(kind: str, room: str, family: str) -> bool:
 
 def other_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ...]:
     """Every room furnished anew, as if nothing had ever stood there."""
-    rng = _dice(context, number, 3)
+    rng = _dice(context, number, FURNITURE)
     style = restyled(style_of(context.theme), rng)
     seed = int(rng.integers(2**31))
     rooms = range(len(context.plan.rooms))
@@ -175,4 +177,5 @@ def other_furniture(context: SceneContext, number: int) -> tuple[SceneObject, ..
 
 
 def _dice(context: SceneContext, number: int, purpose: int) -> np.random.Generator:
-    return np.random.default_rng(np.random.SeedSequence([context.seed, number, purpose, 0x13A6]))
+    seed = context.seed_of("finish" if purpose == SURFACES else "furnish")
+    return np.random.default_rng(np.random.SeedSequence([seed, number, purpose, 0x13A6]))

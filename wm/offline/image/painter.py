@@ -33,11 +33,12 @@ from wm.host import cores
 from wm.offline.image.imagination import FURNISHED, SCENE, Imagination, imagined_scene, imagined_style
 from wm.offline.image.imperfections import drifted, drifted_apart, exposed, softened, strayed
 from wm.offline.image.violations import KINDS, ScaffoldViolation, draw_violation
+from wm.offline.style.words import read_theme
 from wm.offline.world.room import bake_settings
 from wm.offline.world.worker import Recipe, WorkerWorld
 from wm.offline.world.world import Shot, World
 from wm.schema import BESIDE, BackendSettings
-from wm.synth.backends import Condition, ImageRequest, ImageResult, SceneContext
+from wm.synth.backends import Condition, HeardTheme, ImageRequest, ImageResult, SceneContext
 from wm.synth.registry import DRAWN
 from wm.types import OUTSIDE, Camera, SceneObject, View
 
@@ -306,3 +307,9 @@ def _check_size(condition: Condition, camera: Camera) -> None:
             f"the condition is {condition.rgb.shape[:2]}, known {condition.known.shape}, depth {condition.depth.shape}; "
             f"the view's camera asks for {size}"
         )
+
+
+def heard(theme: str) -> HeardTheme:
+    """What the offline world makes of a theme's words."""
+    reading = read_theme(theme)
+    return HeardTheme(used=reading.used, idle=reading.idle, unknown=reading.unknown)

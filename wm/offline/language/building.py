@@ -1,9 +1,10 @@
 """The shell of a building as a theme describes it: sizes of rooms, ceilings, doors, windows, passages."""
 
 import dataclasses
-import re
 
 import numpy as np
+
+from wm.offline.style.lexicon import Word, negated, words_of
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,9 +43,11 @@ _WORDS: tuple[tuple[str, dict], ...] = (
     ("cabin cottage hut tiny bungalow shack burrow den cosy cozy snug",
      {"share": (0.0, 0.35), "ceiling": (2.4, 2.5), "lofty": 0.0, "corridor": (1.5, 1.5), "window": (0.9, 1.2), "sill": 0.95,
       "head": 2.05}),
+    ("submarine spaceship capsule igloo cave ship pirate galleon burrow bunker dungeon prison",
+     {"ceiling": (2.4, 2.6), "lofty": 0.1, "window": (0.8, 1.1), "sill": 1.1, "head": 2.0}),
     ("scandinavian nordic swedish danish norwegian finnish japanese japandi minimal minimalist",
      {"openness": 0.65, "window": (1.4, 1.8), "sill": 0.7, "head": 2.25}),
-    ("modern contemporary beach coastal glass loft futuristic pavilion conservatory aquarium",
+    ("modern contemporary beach coastal loft futuristic pavilion conservatory aquarium",
      {"openness": 0.8, "window": (1.8, 2.6), "sill": 0.1, "head": 2.5, "spacing": 0.8}),
     ("gothic medieval victorian baroque haunted",
      {"openness": 0.35, "door": (1.0, 2.4), "window": (1.0, 1.3), "sill": 0.7, "head": 2.9, "spacing": 1.2}),
@@ -55,12 +58,22 @@ _WORDS: tuple[tuple[str, dict], ...] = (
 
 def building_of(theme: str) -> Building:
     """The shell for a theme. Words that are not in the table are ignored."""
-    words = set(re.findall(r"[a-z]+", theme.lower()))
+    words = {word.lemma for word in building_words(theme)}
     building = _PLAIN
     for keys, changes in _WORDS:
         if words & set(keys.split()):
             building = dataclasses.replace(building, **changes)
     return building
+
+
+def building_words(theme: str) -> list[Word]:
+    """The words of a theme that speak of the shell: not those that are negated, nor those of furniture ("a modern sofa")."""
+    words = words_of(theme)
+    known = {key for keys, _ in _WORDS for key in keys.split()}
+    reached = negated(words)
+    after = [*words[1:], None]
+    of_furniture = [bool(word is not None and word.target) and not here.ends for here, word in zip(words, after)]
+    return [word for word, no, yes in zip(words, reached, of_furniture) if word.lemma in known and not no and not yes]
 
 
 def draw(interval: tuple[float, float], rng: np.random.Generator) -> float:

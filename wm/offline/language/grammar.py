@@ -14,14 +14,15 @@ import numpy as np
 
 from wm.bounds import setting
 from wm.geometry.plan.records import WALL_THICKNESS
-from wm.offline.language.building import Building, building_of, draw
+from wm.offline.language.building import Building, building_of, building_words, draw
 from wm.offline.language.massing import draft
 from wm.offline.language.openings import Hole, draw_openings
 from wm.offline.language.programme import CIRCULATION, Space, read_programme, room_kind_of
+from wm.offline.style.lexicon import words_of
 from wm.schema import BackendSettings
-from wm.synth.backends import SceneContext
+from wm.synth.backends import HeardTheme, SceneContext
 
-VERSION = "1"
+VERSION = "2"
 _OF_OPENINGS = ("opening", "door", "window", "passage")
 
 
@@ -39,7 +40,8 @@ class Grammar:
         """A floor plan as JSON text. Its rooms are in the order of the programme; corridors that were added come after them."""
         building = building_of(theme)
         asked_again = zlib.crc32(previous.encode()) if previous is not None else 0
-        rng = np.random.default_rng(np.random.SeedSequence([seed, zlib.crc32(theme.encode()), asked_again]))
+        # The theme's text is not drawn from: only what its words mean for the building changes the house.
+        rng = np.random.default_rng(np.random.SeedSequence([seed, asked_again]))
         kept = _read_back(previous) if previous is not None and violations and _only_openings(violations) else None
         if kept is not None:
             spaces, polygons, ceilings = kept
@@ -119,3 +121,10 @@ def _opening(hole: Hole) -> dict[str, Any]:
         "height": hole.height / 100,
         "sill_height": hole.sill / 100,
     }
+
+
+def heard(theme: str) -> HeardTheme:
+    """What the grammar of houses makes of a theme's words."""
+    used = building_words(theme)
+    others = [word for word in words_of(theme) if word not in used]
+    return HeardTheme(used=tuple(word.text for word in used), unknown=tuple(word.text for word in others))

@@ -8,6 +8,7 @@ import numpy as np
 
 from wm.offline.language.building import Building
 from wm.synth.room_names import CONNECTING, room_sort
+from wm.synth.seeds import numbered_name
 
 CIRCULATION, PUBLIC, PRIVATE, WET, SERVICE = "circulation", "public", "private", "wet", "service"
 
@@ -126,10 +127,12 @@ def room_kind_of(room: str) -> RoomKind:
 
 
 def read_programme(rooms: list[str], building: Building, rng: np.random.Generator) -> list[Space]:
-    """The wanted rooms with unique ids and areas drawn from their kinds' ranges."""
+    """The wanted rooms with unique ids and areas drawn from their kinds' ranges, each by its name, whatever the others are."""
+    house = int(rng.integers(2**32))
     spaces: list[Space] = []
     for room in rooms:
-        add_space(spaces, room, building, rng)
+        number = numbered_name(room, sum(_slug(space.name) == _slug(room) for space in spaces))
+        add_space(spaces, room, building, np.random.default_rng(np.random.SeedSequence([house, number])))
     return spaces
 
 

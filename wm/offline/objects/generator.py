@@ -5,8 +5,9 @@ import dataclasses
 from wm.bounds import setting
 from wm.offline.arrangement.furnishing import furnish_room
 from wm.offline.style.theme import style_of
+from wm.offline.style.words import read_theme
 from wm.schema import ObjectsSettings
-from wm.synth.backends import SceneContext
+from wm.synth.backends import HeardTheme, SceneContext
 from wm.types import SceneObject
 
 VERSION = "2"
@@ -32,10 +33,16 @@ class ProceduralObjects:
         Raises:
           ValueError: the density of the context is not between 0 and 1.
         """
-        style, around = style_of(context.theme), context.objects
-        return furnish_room(context.plan, room, style, seed=context.seed, density=context.density, around=around)
+        style, seed = style_of(context.theme), context.seed_of("furnish")
+        return furnish_room(context.plan, room, style, seed=seed, density=context.density, around=context.objects)
 
 
 def make(settings: Settings, context: SceneContext | None = None) -> ProceduralObjects:
     """The offline objects backend. It keeps no reference to the scene."""
     return ProceduralObjects()
+
+
+def heard(theme: str) -> HeardTheme:
+    """What the offline world makes of a theme's words."""
+    reading = read_theme(theme)
+    return HeardTheme(used=reading.used, idle=reading.idle, unknown=reading.unknown)

@@ -50,6 +50,9 @@ MATERIALS: dict[str, str] = {
     "leaf": "foliage; leaf, vein; leaf length",
     "soil": "earth; base, fleck; crumb size",
     "wax": "candle wax; base; -",
+    "capsule": "moulded panels with rounded corners; panel, seam, shade at the edges; height of one panel",
+    "riveted": "metal plates with rivets along their edges; metal, joint, odd plate; width of a plate",
+    "rock": "living rock, uneven and cracked; rock, cracks, veins; size of the bulges",
     "glow": "a surface that gives light: flame, bulb, screen, ember; base; -",
 }
 """Every material a finish may name."""
@@ -92,6 +95,10 @@ class Form:
     low: float = 1.0  # factor on seat and bed heights (a tea house sits low)
 
 
+OUTLOOKS: tuple[str, ...] = ("country", "space", "deep_sea", "open_sea", "ice", "dunes", "city")
+"""What may lie outside of the windows."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Light:
     """The scene's light: sun and sky through the windows, and lamps."""
@@ -105,6 +112,18 @@ class Light:
     lamp_color: Rgb
     lamp_strength: float  # 0..1
     fire_color: Rgb = (1.0, 0.55, 0.2)
+    outlook: str = "country"  # one of OUTLOOKS: what lies outside of the windows
+
+
+@dataclasses.dataclass(frozen=True)
+class Wish:
+    """What a theme asks of some kinds of furniture."""
+
+    kinds: tuple[str, ...]  # labels of pieces
+    slots: tuple[str, ...] = ()  # the slots that change where a piece has them
+    slot: str = ""  # the slot that they become: another material; "" leaves the material
+    color: Rgb | None = None  # of those slots; None leaves it
+    absent: bool = False  # the pieces are left out
 
 
 @dataclasses.dataclass(frozen=True)
@@ -118,6 +137,7 @@ class Style:
     form: Form
     light: Light
     accents: tuple[Rgb, ...]  # colours for books, cushions, pictures, vases; at least five
+    wishes: tuple[Wish, ...] = ()  # what the theme asks of some kinds of furniture
 
     def surfaces(self, room_type: str) -> Surfaces:
         """Finishes of a room's structure, those of "other" where the type has none of its own."""

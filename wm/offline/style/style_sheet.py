@@ -3,12 +3,17 @@
 import dataclasses
 import math
 
-from wm.offline.style.finish import SLOTS, Finish, Form, Light, Rgb, Style, Surfaces
+from wm.offline.style.finish import SLOTS, Finish, Form, Light, Rgb, Style, Surfaces, Wish
 
 
 def rgb(code: str) -> Rgb:
     """sRGB colour of a six-digit hexadecimal code."""
     return int(code[0:2], 16) / 255, int(code[2:4], 16) / 255, int(code[4:6], 16) / 255
+
+
+def hex_code(color: Rgb) -> str:
+    """Six-digit hexadecimal code of a colour, clipped to [0, 1]."""
+    return "".join(f"{round(min(max(c, 0.0), 1.0) * 255):02x}" for c in color)
 
 
 def mix_rgb(a: Rgb, b: Rgb, share: float) -> Rgb:
@@ -58,6 +63,10 @@ class StyleSheet:
     rooms: tuple[tuple[str, Finish, Finish], ...] = ()  # (room type, wall, floor) where they differ
     upholstery: str = "textile"
     leaf: str = "4e7a3a"
+    kin: str = ""  # family whose furniture a place takes; "" for its own
+    place: bool = False  # whether the sheet is of a place, whose surfaces stay where a theme names a style beside it
+    slots: tuple[tuple[str, Finish], ...] = ()  # furniture slots that differ from what the colours give
+    without: tuple[str, ...] = ()  # kinds of furniture that the place has not
 
 
 def finish(
@@ -80,9 +89,11 @@ def light(
     sky_strength: float | int,
     lamp: str,
     lamps: float | int,
+    outlook: str = "country",
 ) -> Light:
     """A Light from codes and degrees."""
-    return Light(rgb(sun), strength, math.radians(elevation), math.radians(azimuth), rgb(sky), sky_strength, rgb(lamp), lamps)
+    sun_at = (math.radians(elevation), math.radians(azimuth))
+    return Light(rgb(sun), strength, *sun_at, rgb(sky), sky_strength, rgb(lamp), lamps, outlook=outlook)
 
 
 def build_style(theme: str, family: str, sheet: StyleSheet) -> Style:
@@ -105,9 +116,10 @@ def build_style(theme: str, family: str, sheet: StyleSheet) -> Style:
         )
     rooms.setdefault("study", rooms.get("library", dry))
     rooms.setdefault("gallery", rooms.get("hall", dry))
-    slots = slot_finishes(sheet)
+    slots = slot_finishes(sheet) | dict(sheet.slots)
+    wishes = (Wish(sheet.without, absent=True),) if sheet.without else ()
     return Style(theme, family, tuple(rooms.items()), tuple((s, slots[s]) for s in SLOTS), sheet.form, sheet.light,
-                 tuple(rgb(c) for c in sheet.accents))  # fmt: skip
+                 tuple(rgb(c) for c in sheet.accents), wishes)  # fmt: skip
 
 
 def slot_finishes(sheet: StyleSheet) -> dict[str, Finish]:

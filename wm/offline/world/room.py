@@ -34,6 +34,7 @@ from wm.offline.world.pieces import SPECULAR, Pieces, build_pieces, mean_albedo
 from wm.offline.world.pyramid import Pyramid, build_pyramid
 from wm.offline.world.surfaces import Chart, Interior, TexelSheet, dress
 from wm.offline.world.tone import tone
+from wm.synth.seeds import room_number
 from wm.types import OUTSIDE, SceneObject, SurfaceKind
 
 PER_CELL = 6
@@ -57,10 +58,14 @@ class BakedRoom:
 
 def bake_room(
     scene: RayScene, plan: FloorPlan, room: int, objects: tuple[SceneObject, ...], style: Style,
-    *, sun: np.ndarray, seed: int, settings: BakeSettings,
+    *, sun: np.ndarray, seeds: tuple[int, int], settings: BakeSettings,
 ) -> BakedRoom:  # fmt: skip
-    """Dress and light one room of a scene whose mesh is `assemble_scene(structure, objects)`."""
-    interior = _interior(plan, room, style, seed)
+    """Dress and light one room of a scene whose mesh is `assemble_scene(structure, objects)`.
+
+    Args:
+      seeds: of the finish and of the light.
+    """
+    interior = _interior(plan, room, style, seeds[0])
     charts = room_charts(scene.mesh, room, settings.cell)
     spans = [_chart(charts, k, settings.cell / PER_CELL) for k in range(len(charts.atlas.chart_start))]
     with ThreadPoolExecutor(2) as pool:
@@ -81,7 +86,7 @@ def bake_room(
         mood=0.85 + 0.2 * (light.sky_strength + light.sun_strength),
     )
     middle = np.append(interior.polygon.mean(axis=0), min(1.6, 0.6 * interior.height))
-    field = bake(scene, points, sources, eye=middle, seed=interior.seed, settings=settings)
+    field = bake(scene, points, sources, eye=middle, seed=_room_seed(plan, room, seeds[1]), settings=settings)
     baked = [field.irradiance, field.bend, field.mirror]
     with ThreadPoolExecutor(2) as pool:
         images = list(pool.map(lambda k: _shade(charts, k, sheets[k], spans[k], baked), range(len(spans))))
@@ -122,8 +127,13 @@ def _interior(plan: FloorPlan, room: int, style: Style, seed: int) -> Interior:
         height=plan.rooms[room].ceiling_height,
         style=style,
         surfaces=style.surfaces(kind),
-        seed=int(np.random.SeedSequence([seed, room]).generate_state(1)[0] % 100003),
+        seed=_room_seed(plan, room, seed),
     )
+
+
+def _room_seed(plan: FloorPlan, room: int, seed: int) -> int:
+    """Small enough to be added to within float32."""
+    return int(np.random.SeedSequence([seed, room_number(plan, room)]).generate_state(1)[0] % 100003)
 
 
 def _chart(charts: RoomCharts, number: int, texel: float) -> Chart:

@@ -77,7 +77,8 @@ class World:
         style: Style | None = None,
     ):
         """A world in the style of the context's theme, or in another `style`."""
-        self._plan, self._objects, self._seed = context.plan, context.objects, context.seed
+        self._plan, self._objects = context.plan, context.objects
+        self._seeds = context.seed_of("finish"), context.seed_of("light")
         self._settings = settings if settings is not None else BakeSettings()
         self._style = style if style is not None else style_of(context.theme)
         self._supersampling = supersampling
@@ -101,7 +102,7 @@ class World:
             if index not in self._rooms:
                 self._rooms[index] = bake_room(
                     self._lit, self._plan, index, self._objects, self._style,
-                    sun=self._sun, seed=self._seed, settings=self._settings,
+                    sun=self._sun, seeds=self._seeds, settings=self._settings,
                 )  # fmt: skip
                 while len(self._rooms) > KEPT:
                     self._rooms.popitem(last=False)

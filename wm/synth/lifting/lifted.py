@@ -49,10 +49,11 @@ from wm.synth.lifting.segments import tidy_segments
 from wm.synth.lifting.unlit import unlit
 from wm.synth.prompts import furnish_prompt
 from wm.synth.registry import BackendError, close_backend, make_backend, mismatch
+from wm.synth.seeds import room_number
 from wm.synth.sights import sights
 from wm.types import Camera, SceneObject, View
 
-VERSION = "1"
+VERSION = "2"
 USES = ("image", "depth", "segmentation", "reconstruction")
 
 
@@ -174,10 +175,10 @@ def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: 
 def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: Settings) -> LiftedRoom:
     """One room drawn from these cameras, segmented, reconstructed and placed."""
     bare = build_ray_scene(context.structure)
-    site = room_site(context.plan, room, context.objects)
+    site, number = room_site(context.plan, room, context.objects), room_number(context.plan, room)
     drawings = []
     for k, camera in enumerate(cameras):
-        seed = _seed(context.seed, room, k)
+        seed = _seed(context.seed_of("furnish"), number, k)
         drawing = draw(context, room, camera, bare, models, config, reference=drawings[0] if drawings else None, seed=seed)
         drawings += [drawing] if drawing is not None else []
     found = [[(segment, _observation(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
@@ -193,7 +194,7 @@ def _reconstructed(
     """Each instance in world space. Those whose reconstructions turn out to be one instance are reconstructed again together."""
 
     def made(instance: Instance, number: int) -> Reconstruction | None:
-        seed = _seed(context.seed, room, 100 + number)
+        seed = _seed(context.seed_of("furnish"), room_number(context.plan, room), 100 + number)
         result = backend.reconstruct(instance.label, instance.observations, site, room, seed=seed)
         if result is None:
             return None

@@ -7,11 +7,15 @@
     imagined      clockwork, cyberpunk, surreal
 """
 
+from wm.offline.style.families.afar import CAVE, DESERT, ICE, SHIP, SPACE, SUBMARINE, TREEHOUSE, UNDERWATER
 from wm.offline.style.families.contemporary import INDUSTRIAL, MINIMALIST, MODERN, SCANDINAVIAN
+from wm.offline.style.families.eras import CHINESE, CIRCUS, EGYPTIAN, EIGHTIES, MEXICAN, NOUVEAU, SEVENTIES
 from wm.offline.style.families.historic import BAROQUE, GOTHIC, ROMAN, VICTORIAN
 from wm.offline.style.families.imagined import CLOCKWORK, CYBERPUNK, SURREAL
+from wm.offline.style.families.legends import CANDY, CASTLE, DOLLHOUSE, WIZARD
 from wm.offline.style.families.regional import COASTAL, JAPANESE, MOROCCAN, RUSTIC
 from wm.offline.style.families.retro import ART_DECO, MIDCENTURY
+from wm.offline.style.families.town import BAKERY, BOOKISH, CLINIC, DINER, GREENHOUSE, PRISON, RAMEN, SAUNA, SCHOOL, TAVERN
 from wm.offline.style.style_sheet import StyleSheet
 
 FAMILIES: dict[str, StyleSheet] = {
@@ -32,5 +36,34 @@ FAMILIES: dict[str, StyleSheet] = {
     "moroccan": MOROCCAN,
     "clockwork": CLOCKWORK,
     "surreal": SURREAL,
+    "space": SPACE,
+    "ice": ICE,
+    "submarine": SUBMARINE,
+    "ship": SHIP,
+    "cave": CAVE,
+    "treehouse": TREEHOUSE,
+    "underwater": UNDERWATER,
+    "desert": DESERT,
+    "clinic": CLINIC,
+    "school": SCHOOL,
+    "bakery": BAKERY,
+    "ramen": RAMEN,
+    "diner": DINER,
+    "tavern": TAVERN,
+    "sauna": SAUNA,
+    "bookish": BOOKISH,
+    "prison": PRISON,
+    "greenhouse": GREENHOUSE,
+    "seventies": SEVENTIES,
+    "eighties": EIGHTIES,
+    "nouveau": NOUVEAU,
+    "egyptian": EGYPTIAN,
+    "chinese": CHINESE,
+    "mexican": MEXICAN,
+    "circus": CIRCUS,
+    "castle": CASTLE,
+    "wizard": WIZARD,
+    "candy": CANDY,
+    "dollhouse": DOLLHOUSE,
 }
-"""Every family of the offline world; "modern" is the neutral one."""
+"""Every family of the offline world, and every place with looks of its own; "modern" is the neutral one."""

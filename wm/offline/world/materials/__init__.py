@@ -5,12 +5,13 @@
     wood             boards, parquet, panels, paint and lacquer over wood
     stone            stone, brick, clay, mosaic, concrete
     cloth            cloth, carpet, leather, rush and cane
+    panels           moulded panels, riveted plates, living rock
     gears            gear wheels, and the wallpaper of them
     fittings         metal, glass, mirror, glaze, leaves, soil, wax, light sources
 """
 
 from wm.offline.style.finish import Finish
-from wm.offline.world.materials import cloth, fittings, gears, stone, wall, wood
+from wm.offline.world.materials import cloth, fittings, gears, panels, stone, wall, wood
 from wm.offline.world.materials.material_sample import Material, MaterialSample, Points, flat_points
 
 _TABLE: dict[str, Material] = {
@@ -52,6 +53,9 @@ _TABLE: dict[str, Material] = {
     "leaf": fittings.leaf,
     "soil": fittings.soil,
     "wax": fittings.wax,
+    "capsule": panels.capsule,
+    "riveted": panels.riveted,
+    "rock": panels.rock,
     "glow": fittings.glow,
 }
 

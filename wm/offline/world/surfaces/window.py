@@ -5,6 +5,7 @@ import numpy as np
 from wm.color import to_linear
 from wm.offline.world.materials.wall import trim_profile
 from wm.offline.world.noise import cells, edge, fbm
+from wm.offline.world.surfaces.outlook import HORIZON, OUTLOOKS
 from wm.offline.world.surfaces.texel_sheet import F32, Chart, Interior, TexelSheet, grid, lay, over
 
 BARS: dict[str, tuple[int, int, float]] = {
@@ -22,8 +23,6 @@ BARS: dict[str, tuple[int, int, float]] = {
     "japanese": (4, 3, 0.025),
     "moroccan": (4, 4, 0.03),
 }
-HORIZON = 1.35
-"""Metres above the floor where the painted outdoors has its horizon: about eye level."""
 
 
 def pane_sheet(chart: Chart, interior: Interior) -> TexelSheet:
@@ -60,6 +59,8 @@ def _outdoors(chart: Chart, across: np.ndarray, z: np.ndarray, interior: Interio
     sky = to_linear(np.asarray(light.sky_color, F32))[:, None, None]
     sun = to_linear(np.asarray(light.sun_color, F32))[:, None, None]
     brightness = F32(0.55 + 0.55 * light.sky_strength + 0.2 * light.sun_strength)
+    if light.outlook in OUTLOOKS:
+        return (OUTLOOKS[light.outlook](across, z, sky, chart.texel, interior.seed + 80) * brightness).astype(F32)
     up = np.clip((z - F32(HORIZON)) / F32(1.6), -1, 1)
     glow = np.exp(-np.abs(up) * F32(2.2))
     cloud = fbm((across, z * F32(2.2)), wavelength=1.1, octaves=4, footprint=chart.texel, seed=interior.seed + 80)
