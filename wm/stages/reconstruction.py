@@ -29,6 +29,9 @@ SPLATS, BY_ROOM, HISTORY = "splats.ply", "stages/splats.npz", "stages/history.js
 CURVE_VIEWS = 2
 """Held-out views of a room that the error curve is measured on while fitting; the evaluation uses all of them."""
 
+VISIBLE_LOGIT = float(np.log(1 / 254))
+"""Of opacity 1 / 255, at or below which every rasterizer of gaussians leaves one out."""
+
 _LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
 
 
@@ -159,15 +162,17 @@ def _fit(run: RunContext, scene: Scene, painted: Painted, truths: HeldOut, capac
         key,
         {
             BY_ROOM: codecs.encode_arrays(_join(result.gaussians)),
-            SPLATS: lambda path: save_ply(path, merge_gaussians(result.gaussians)),
+            SPLATS: lambda path: save_ply(path, visible_gaussians(result.gaussians), antialias=config.raster.antialias),
         },
     )
     folder.drop_others("fit/", set())
 
 
-def merge_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
-    """All rooms as one set, in order."""
-    return jax.tree.map(lambda *leaves: np.concatenate(leaves), *rooms)
+def visible_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
+    """All rooms in order, without the gaussians that refinement has left with an opacity that no program draws."""
+    merged = jax.tree.map(lambda *leaves: np.concatenate(leaves), *rooms)
+    kept = merged.opacity_logits > VISIBLE_LOGIT
+    return jax.tree.map(lambda leaf: leaf[kept], merged)
 
 
 def _join(rooms: Sequence[Gaussians]) -> dict[str, np.ndarray]:
