@@ -13,7 +13,8 @@ from wm.artifacts import json_text
 from wm.geometry import cast, visible_rooms
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
-from wm.splat.ply import save_ply
+from wm.splat.ply import save_ply, save_point_cloud
+from wm.splat.rasterizer.harmonics import SH_C0
 from wm.splat.scene.scene_fit import fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.stages.executors import room_executor, worker_count
@@ -21,7 +22,7 @@ from wm.stages.heldout import HeldOut
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.run_context import RunContext
-from wm.stages.scene import Scene
+from wm.stages.scene import POINTS, Scene
 from wm.stages.starting import starting_gaussians
 from wm.types import OUTSIDE, Gaussians, GBuffer, View
 
@@ -162,10 +163,17 @@ def _fit(run: RunContext, scene: Scene, painted: Painted, truths: HeldOut, capac
         key,
         {
             BY_ROOM: codecs.encode_arrays(_join(result.gaussians)),
+            POINTS: lambda path: save_point_cloud(path, *points_of(start)),
             SPLATS: lambda path: save_ply(path, visible_gaussians(result.gaussians), antialias=config.raster.antialias),
         },
     )
     folder.drop_others("fit/", set())
+
+
+def points_of(rooms: Sequence[Gaussians]) -> tuple[np.ndarray, np.ndarray]:
+    """The centres [p, 3] of the initial gaussians of all rooms, in order, and their colours [p, 3] uint8."""
+    colors = np.concatenate([0.5 + SH_C0 * np.asarray(room.sh[:, 0]) for room in rooms])
+    return np.concatenate([np.asarray(room.means) for room in rooms]), codecs.to_bytes(colors[:, None])[:, 0]
 
 
 def visible_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:

@@ -25,6 +25,7 @@ from wm.synth.registry import backend_key, make_backend
 from wm.types import Mesh, SceneObject, View
 
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
+HELDOUT_CAMERAS, POINTS = "cameras.heldout.json", "points.ply"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -111,6 +112,9 @@ def _cameras(run: RunContext, plan: FloorPlan, rays: RayScene) -> tuple[tuple[Vi
     settings = run.config.cameras
     views = tuple(place_cameras(plan, rays, settings))
     heldout = tuple(place_heldout(plan, rays, views, settings))
-    frames = codecs.transforms_json(views, [room.id for room in plan.rooms], "splats.ply")
-    run.folder.save("cameras", run.key("cameras", settings, json.dumps(frames)), {CAMERAS: json_text(frames)})
+    rooms = [room.id for room in plan.rooms]
+    frames = codecs.transforms_json(views, rooms, POINTS)
+    apart = codecs.heldout_json(heldout, rooms, "heldout/{}.truth.png")
+    key = run.key("cameras", settings, json.dumps([frames, apart]))
+    run.folder.save("cameras", key, {CAMERAS: json_text(frames), HELDOUT_CAMERAS: json_text(apart)})
     return views, heldout
