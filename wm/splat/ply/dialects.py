@@ -8,7 +8,7 @@ point cloud      x y z red green blue alone: a round gaussian at every point, as
 
 import numpy as np
 from jaxtyping import Float, Float32
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from wm.splat.ply.errors import PlyError
 from wm.splat.rasterizer.checks import DEGREES
@@ -79,7 +79,7 @@ def _of_points(means: Float32[np.ndarray, "n 3"], sh: Float32[np.ndarray, "n k 3
     n = len(means)
     size = np.zeros(n)
     if n > 1:
-        distance = cKDTree(means).query(means, k=range(2, min(n, _NEAREST + 1) + 1))[0]
+        distance = KDTree(means).query(means, k=range(2, min(n, _NEAREST + 1) + 1))[0]
         size = (distance**2).mean(axis=1)
     log_scales = 0.5 * np.log(np.maximum(size, 1e-7))
     return Gaussians(
