@@ -54,6 +54,12 @@ def test_depth_is_stored_within_half_a_step_and_misses_stay_zero(rng):
     assert np.abs(back - depth).max() <= codecs.DEPTH_UNIT / 2 + 1e-5
 
 
+def test_depth_that_16_bits_cannot_say_is_no_depth():
+    depth = np.array([[1, 65.535, 65.6, 70, 1e9, np.inf, np.nan, -1]], np.float32)
+    with Image.open(io.BytesIO(codecs.encode_depth(depth))) as image:
+        np.testing.assert_array_equal(np.asarray(image), [[1000, 65535, 0, 0, 0, 0, 0, 0]])
+
+
 def test_objects_round_trip(rng):
     things = (_thing(rng, "armchair"), _thing(rng, "Büste"))
     data = codecs.encode_objects(things)

@@ -63,8 +63,10 @@ def decode_mask(data: bytes) -> Bool[np.ndarray, "h w"]:
 
 
 def encode_depth(depth: Float[np.ndarray, "h w"]) -> bytes:
-    """A 16-bit PNG of z-depth in steps of DEPTH_UNIT; 0 stays 0, and depth beyond 65.5 m is clipped."""
-    steps = np.clip(np.round(depth / DEPTH_UNIT), 0, np.iinfo(np.uint16).max).astype(np.uint16)
+    """A 16-bit PNG of z-depth in steps of DEPTH_UNIT. What 16 bits cannot hold is 0, which means no depth to readers: beyond
+    65.535 m, behind the camera, not finite."""
+    steps = np.round(depth / DEPTH_UNIT)
+    steps = np.where((steps > 0) & (steps <= np.iinfo(np.uint16).max), steps, 0).astype(np.uint16)
     buffer = io.BytesIO()
     Image.fromarray(steps).save(buffer, format="PNG", compress_level=FAST)
     return buffer.getvalue()
@@ -125,12 +127,27 @@ def object_summary(objects: Sequence[SceneObject], rooms: Sequence[str]) -> dict
 
 
 def camera_frame(view: View, room: str) -> dict[str, Any]:
-    """One frame of nerfstudio's transforms.json, with its own intrinsics and our room, kind and name."""
-    camera = view.camera
-    T_world_cam = np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _OPENGL_FROM_OPENCV
+    """One frame of nerfstudio's transforms.json, with its own intrinsics, its mask (white where the image counts), and our room,
+    kind and name."""
     return {
         "file_path": f"views/{view.name}.png",
         "depth_file_path": f"views/{view.name}.depth.png",
+        "mask_path": f"views/{view.name}.mask.png",
+        **_pose(view, room),
+    }
+
+
+def heldout_json(views: Sequence[View], rooms: Sequence[str], images: str) -> dict[str, Any]:
+    """nerfstudio's transforms.json of held-out views, whose images are `images` with the name of the view in it. They are apart
+    from the training views so that no trainer learns from them."""
+    frames = [{"file_path": images.format(view.name), **_pose(view, rooms[view.room])} for view in views]
+    return {"camera_model": "OPENCV", "frames": frames}
+
+
+def _pose(view: View, room: str) -> dict[str, Any]:
+    camera = view.camera
+    T_world_cam = np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _OPENGL_FROM_OPENCV
+    return {
         "transform_matrix": np.round(T_world_cam, 9).tolist(),
         **_intrinsics(camera),
         "room": room,
@@ -140,7 +157,8 @@ def camera_frame(view: View, room: str) -> dict[str, Any]:
 
 
 def transforms_json(views: Sequence[View], rooms: Sequence[str], ply: str) -> dict[str, Any]:
-    """nerfstudio's transforms.json of all views: opens in any tool that reads that format."""
+    """nerfstudio's transforms.json of all views: opens in any tool that reads that format. `ply` names a point cloud with colours
+    from which trainers start. `wm.geometry.load_cameras` reads it back."""
     return {
         "camera_model": "OPENCV",
         "depth_unit_scale_factor": DEPTH_UNIT,

@@ -46,24 +46,60 @@ class Camera:
     """A pinhole camera; `width` and `height` are static under jit, the rest are arrays (host or device).
 
     A point projects to pixels by p_cam = T_cam_world @ p_world, (u, v) = focal * p_cam[:2] / p_cam[2] + principal.
+
+    Attributes:
+        T_cam_world: [4, 4] world to camera
+        focal: [2] pixels
+        principal: [2] pixels, (width / 2, height / 2) for a centred camera
+        width, height: pixels of the image
     """
 
-    T_cam_world: Any  # [4, 4] world to camera
-    focal: Any  # [2] pixels
-    principal: Any  # [2] pixels, (width / 2, height / 2) for a centred camera
+    T_cam_world: Any
+    focal: Any
+    principal: Any
     width: int = dataclasses.field(metadata={"static": True})
     height: int = dataclasses.field(metadata={"static": True})
 
 
 @record
 class Mesh:
-    """A labelled triangle mesh on the host; normals (right-hand rule) point from the solid into free air."""
+    """A labelled triangle mesh on the host; normals (right-hand rule) point from the solid into free air.
 
-    vertices: np.ndarray  # [v, 3] float64, metres
-    faces: np.ndarray  # [f, 3] int32
-    face_room: np.ndarray  # [f] int32, index into FloorPlan.rooms, OUTSIDE for none
-    face_kind: np.ndarray  # [f] int32, SurfaceKind
-    face_object: np.ndarray  # [f] int32, index into the scene's objects, OUTSIDE for structure
+    Attributes:
+        vertices: [v, 3] float64, metres
+        faces: [f, 3] int32
+        face_room: [f] int32, index into FloorPlan.rooms, OUTSIDE for none
+        face_kind: [f] int32, SurfaceKind
+        face_object: [f] int32, index into the scene's objects, OUTSIDE for structure
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    face_room: np.ndarray
+    face_kind: np.ndarray
+    face_object: np.ndarray
+
+    @classmethod
+    def from_triangles(
+        cls, vertices: Any, faces: Any, *, face_room: Any = 0, face_kind: Any = SurfaceKind.WALL, face_object: Any = OUTSIDE
+    ) -> "Mesh":
+        """A mesh from vertices [v, 3] in metres and faces [f, 3]; each label is one for all faces or [f], by default those of
+        walls of the first room.
+
+        Raises:
+            ValueError: a shape is wrong, a vertex is not finite, or a face names a vertex that is not there.
+        """
+        vertices, faces = np.asarray(vertices, np.float64), np.asarray(faces)
+        for name, x in (("vertices", vertices), ("faces", faces)):
+            if x.ndim != 2 or x.shape[1] != 3:
+                raise ValueError(f"{name} has shape {x.shape}; (n, 3) would be right")
+        if not np.isfinite(vertices).all():
+            raise ValueError("vertices has numbers that are not finite; metres would be right")
+        if faces.size and (not np.issubdtype(faces.dtype, np.integer) or faces.min() < 0 or faces.max() >= len(vertices)):
+            raise ValueError(f"faces must be whole numbers from 0 to {len(vertices) - 1}, the indices of vertices")
+        labels = {"face_room": face_room, "face_kind": face_kind, "face_object": face_object}
+        full = {name: np.broadcast_to(np.asarray(x, np.int32), len(faces)).copy() for name, x in labels.items()}
+        return cls(vertices=vertices, faces=faces.astype(np.int32), **full)
 
     def to_trimesh(self) -> Any:
         """A `trimesh.Trimesh` with the same vertices and faces and `face_attributes` room, kind and object."""
@@ -75,24 +111,40 @@ class Mesh:
 
 @record
 class GBuffer:
-    """What a camera sees of a mesh, on the host. Where nothing is hit: depth 0, normal 0, face -1, hit False."""
+    """What a camera sees of a mesh, on the host. Where nothing is hit: depth 0, normal 0, face -1, hit False.
 
-    depth: np.ndarray  # [h, w] float32 z-depth, metres
-    normal: np.ndarray  # [h, w, 3] float32 unit geometric normal in world axes, as the mesh winds it
-    face: np.ndarray  # [h, w] int32
-    barycentric: np.ndarray  # [h, w, 2] float32 (u, v): p = (1 - u - v) v0 + u v1 + v v2
-    hit: np.ndarray  # [h, w] bool
+    Attributes:
+        depth: [h, w] float32 z-depth, metres
+        normal: [h, w, 3] float32 unit geometric normal in world axes, as the mesh winds it
+        face: [h, w] int32
+        barycentric: [h, w, 2] float32 (u, v): p = (1 - u - v) v0 + u v1 + v v2
+        hit: [h, w] bool
+    """
+
+    depth: np.ndarray
+    normal: np.ndarray
+    face: np.ndarray
+    barycentric: np.ndarray
+    hit: np.ndarray
 
 
 @record
 class Gaussians:
-    """Anisotropic 3D gaussians on the device. Opacity is sigmoid(opacity_logits); k = (degree + 1)^2 SH coefficients."""
+    """Anisotropic 3D gaussians on the device. Opacity is sigmoid(opacity_logits); k = (degree + 1)^2 SH coefficients.
 
-    means: Any  # [n, 3] metres, world
-    quats: Any  # [n, 4] wxyz, need not be unit
-    log_scales: Any  # [n, 3] log metres (standard deviations along the local axes)
-    opacity_logits: Any  # [n]
-    sh: Any  # [n, k, 3]; colour = 0.5 + sum_k sh_k Y_k(direction), sRGB-encoded
+    Attributes:
+        means: [n, 3] metres, world
+        quats: [n, 4] wxyz, need not be unit
+        log_scales: [n, 3] log metres (standard deviations along the local axes)
+        opacity_logits: [n]
+        sh: [n, k, 3]; colour = max(0, 0.5 + sum_k sh_k Y_k(direction)), sRGB-encoded
+    """
+
+    means: Any
+    quats: Any
+    log_scales: Any
+    opacity_logits: Any
+    sh: Any
 
 
 Background = Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"]
@@ -101,21 +153,34 @@ Background = Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] 
 
 @record
 class Render:
-    """What a camera sees of gaussians, on the device."""
+    """What a camera sees of gaussians, on the device.
 
-    rgb: Any  # [h, w, 3] background included
-    depth: Any  # [h, w] expected z-depth normalised by alpha, metres; 0 where alpha is 0
-    alpha: Any  # [h, w] 1 - transmittance
+    Attributes:
+        rgb: [h, w, 3] background included
+        depth: [h, w] expected z-depth normalised by alpha, metres; 0 where alpha is 0
+        alpha: [h, w] 1 - transmittance
+    """
+
+    rgb: Any
+    depth: Any
+    alpha: Any
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class View:
-    """A planned camera and why it stands there."""
+    """A planned camera and why it stands there.
 
-    camera: Camera  # NumPy float64 leaves
-    room: int  # index into FloorPlan.rooms: the room it looks at
-    kind: str  # bootstrap | perimeter | overhead | doorway | heldout
-    name: str  # unique in the scene, "<room id>/<kind><k>"
+    Attributes:
+        camera: NumPy float64 leaves
+        room: index into FloorPlan.rooms: the room it looks at
+        kind: bootstrap | perimeter | overhead | doorway | heldout
+        name: unique in the scene, "<room id>/<kind><k>"
+    """
+
+    camera: Camera
+    room: int
+    kind: str
+    name: str
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -123,30 +188,51 @@ class Texture:
     """Base colours on the faces of an object, on the host.
 
     They are tied to faces and not to positions, so that they stay with the object when it is moved or scaled.
+
+    Attributes:
+        image: [h, w, 3] uint8 sRGB
+        corner_uv: [f, 3, 2] float32 in [0, 1]: of each face's corners; (0, 0) is the first pixel's corner, v runs down
+        slots: [s] bool: slots whose faces look it up; the others have their slot's colour
     """
 
-    image: np.ndarray  # [h, w, 3] uint8 sRGB
-    corner_uv: np.ndarray  # [f, 3, 2] float32 in [0, 1]; (0, 0) is the top left corner, v runs down
-    slots: np.ndarray  # [s] bool: slots whose faces are textured; faces of the others have the colour of their slot
+    image: np.ndarray
+    corner_uv: np.ndarray
+    slots: np.ndarray
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SceneObject:
-    """One separate object in a room, as a closed or open triangle mesh in world space, on the host."""
+    """One separate object in a room, as a closed or open triangle mesh in world space, on the host.
 
-    label: str  # its name in everyday words, such as "armchair" or "floor lamp"
-    room: int  # index into FloorPlan.rooms
-    support: str  # floor | flat | wall | ceiling | object (stacked on another)
-    vertices: np.ndarray  # [v, 3] float64, world metres
-    faces: np.ndarray  # [f, 3] int32, outward winding
-    face_slot: np.ndarray  # [f] int32, index into slots
-    slots: tuple[str, ...]  # material names: "dark_wood", "velvet", "brass" ...
-    slot_colors: np.ndarray  # [s, 3] float32 base colour of each slot, sRGB in [0, 1]
-    T_world_object: np.ndarray  # [4, 4] float64: object frame (x right, y back, z up, origin at the foot's centre) to world
-    size: np.ndarray  # [3] float64 extent along the object's own axes, metres
-    emission: np.ndarray  # [s] float32: how strongly each slot glows (0 for none)
-    texture: Texture | None = None  # colours finer than the slots', where images have shown them
-    id: str = ""  # unique in the scene: the name of its GLB node and its row in objects.json; empty until it is furnished
+    Attributes:
+        label: its name in everyday words, such as "armchair" or "floor lamp"
+        room: index into FloorPlan.rooms
+        support: floor | flat | wall | ceiling | object (stacked on another)
+        vertices: [v, 3] float64, world metres
+        faces: [f, 3] int32, outward winding
+        face_slot: [f] int32, index into slots
+        slots: material names: "dark_wood", "velvet", "brass" ...
+        slot_colors: [s, 3] float32 base colour of each slot, sRGB in [0, 1]
+        T_world_object: [4, 4] float64: object frame (x right, y back, z up, origin at the foot's centre) to world
+        size: [3] float64 extent along the object's own axes, metres
+        emission: [s] float32: how strongly each slot glows (0 for none)
+        texture: colours finer than the slots', where images have shown them
+        id: unique in the scene: the name of its GLB node and its row in objects.json; empty until it is furnished
+    """
+
+    label: str
+    room: int
+    support: str
+    vertices: np.ndarray
+    faces: np.ndarray
+    face_slot: np.ndarray
+    slots: tuple[str, ...]
+    slot_colors: np.ndarray
+    T_world_object: np.ndarray
+    size: np.ndarray
+    emission: np.ndarray
+    texture: Texture | None = None
+    id: str = ""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -154,18 +240,33 @@ class Atlas:
     """Texels over the planar surfaces of a scaffold, on the host: the accumulated wall texture (paper, "Mesh Texturing").
 
     A chart is a planar surface of one room and one kind; its texels lie on a regular grid, row-major from `chart_start`.
+
+    Attributes:
+        texel_size: metres
+        chart_origin: [c, 3] float64: world corner of texel (0, 0)
+        chart_u: [c, 3] float64 unit axis along columns
+        chart_v: [c, 3] float64 unit axis along rows
+        chart_normal: [c, 3] float64 into free air
+        chart_shape: [c, 2] int32 rows, columns
+        chart_start: [c] int64: index of its first texel
+        chart_room: [c] int32
+        chart_kind: [c] int32 SurfaceKind
+        face_chart: [f] int32 chart of each face of the mesh it was built from, -1 for none
+        inside: [t] bool: the texel's centre lies on the surface (not in a hole or off its edge)
+        color: [t, 3] float32 weighted mean so far
+        weight: [t] float32 total weight so far
     """
 
-    texel_size: float  # metres
-    chart_origin: np.ndarray  # [c, 3] float64: world corner of texel (0, 0)
-    chart_u: np.ndarray  # [c, 3] float64 unit axis along columns
-    chart_v: np.ndarray  # [c, 3] float64 unit axis along rows
-    chart_normal: np.ndarray  # [c, 3] float64 into free air
-    chart_shape: np.ndarray  # [c, 2] int32 rows, columns
-    chart_start: np.ndarray  # [c] int64: index of its first texel
-    chart_room: np.ndarray  # [c] int32
-    chart_kind: np.ndarray  # [c] int32 SurfaceKind
-    face_chart: np.ndarray  # [f] int32 chart of each face of the mesh it was built from, -1 for none
-    inside: np.ndarray  # [t] bool: the texel's centre lies on the surface (not in a hole or off its edge)
-    color: np.ndarray  # [t, 3] float32 weighted mean so far
-    weight: np.ndarray  # [t] float32 total weight so far
+    texel_size: float
+    chart_origin: np.ndarray
+    chart_u: np.ndarray
+    chart_v: np.ndarray
+    chart_normal: np.ndarray
+    chart_shape: np.ndarray
+    chart_start: np.ndarray
+    chart_room: np.ndarray
+    chart_kind: np.ndarray
+    face_chart: np.ndarray
+    inside: np.ndarray
+    color: np.ndarray
+    weight: np.ndarray

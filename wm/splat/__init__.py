@@ -7,7 +7,7 @@
     similarity    ssim, with a hand-written derivative
     metrics       psnr, depth_error, normal_error: errors against the truth and the scaffold
     reprojection  reprojection_error: consistency of depth between views
-    ply           load_ply, save_ply
+    ply           load_ply, save_ply, splat_render_mode, save_point_cloud: files of ours and of other programs
 """
 
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
@@ -16,7 +16,7 @@ from wm.splat.optimization.curve import FitPoint
 from wm.splat.optimization.fitting import Fit, FitError, fit
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
-from wm.splat.ply import PlyError, load_ply, save_ply
+from wm.splat.ply import PlyError, load_ply, save_ply, save_point_cloud, splat_render_mode
 from wm.splat.rasterizer.compositing import rasterize
 from wm.splat.rasterizer.projection import Projected, project
 from wm.splat.rasterizer.rendering import render
@@ -64,7 +64,9 @@ __all__ = [
     "render",
     "reprojection_error",
     "save_ply",
+    "save_point_cloud",
     "shared_pixels",
+    "splat_render_mode",
     "ssim",
     "ssim_map",
 ]

@@ -12,55 +12,87 @@ reprojection.py.
 import dataclasses
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float, Int, Num
 
 from wm.geometry.rays.pinhole import camera_rays, unproject_depth
+from wm.splat.image_checks import check_floats, check_images, check_range, check_shapes
 from wm.types import Camera
 
 
 @dataclasses.dataclass(frozen=True)
 class DepthError:
-    """Splat depth against scaffold depth."""
+    """Splat depth against scaffold depth.
 
-    mae: float  # metres
-    rmse: float  # metres
+    Attributes:
+        mae: metres
+        rmse: metres
+    """
+
+    mae: float
+    rmse: float
 
 
 @dataclasses.dataclass(frozen=True)
 class NormalError:
-    """Splat normals against scaffold normals."""
+    """Splat normals against scaffold normals.
 
-    cosine: float  # mean cosine of the angle between them
-    angle: float  # mean angle, degrees
+    Attributes:
+        cosine: mean cosine of the angle between them
+        angle: mean angle, degrees
+    """
+
+    cosine: float
+    angle: float
 
 
-def psnr(
-    image: Float[np.ndarray, "h w c"], truth: Float[np.ndarray, "h w c"], mask: Bool[np.ndarray, "h w"] | None = None
-) -> float:
+def psnr(image: Num[np.ndarray, "..."], truth: Num[np.ndarray, "..."], mask: Bool[np.ndarray, "h w"] | None = None) -> float:
     """Peak signal-to-noise ratio in dB of an image (clipped to [0, 1]) against the truth over the mask; inf for equal ones.
+
+    Args:
+        image: [h, w, c] floats from 0 to 1; a render may overshoot.
+        truth: [h, w, c] floats from 0 to 1.
+        mask: the pixels that count; None for all.
+
+    Raises:
+        TypeError: an image is no array of floats.
+        ValueError: shapes differ, or values lie outside the range.
 
     scikit-image's `peak_signal_noise_ratio` gives the same number (tests/splat/test_metrics_peer.py); it is not called because
     the package would then depend on scikit-image for one line, and because it warns for equal images and for an empty mask.
     """
+    check_images(image=image, truth=truth)
+    check_range("truth", truth if mask is None else truth[mask], 1.0)
     squared = (np.clip(image, 0, 1).astype(np.float64) - truth) ** 2
     error = _mean(squared if mask is None else squared[mask])
     return float(-10 * np.log10(error)) if error != 0 else float("inf")
 
 
 def depth_error(
-    depth: Float[np.ndarray, "h w"], scaffold: Float[np.ndarray, "h w"], mask: Bool[np.ndarray, "h w"] | None = None
+    depth: Num[np.ndarray, "..."], scaffold: Num[np.ndarray, "..."], mask: Bool[np.ndarray, "h w"] | None = None
 ) -> DepthError:
     """M-MAE and M-RMSE in metres where the scaffold is hit (its depth is above 0) and the mask holds.
 
     A pixel that no gaussian covers (depth 0) counts with its whole distance.
+
+    Raises:
+        TypeError: a depth is no array of floats, which metres are.
+        ValueError: the shapes differ.
     """
+    for name, x in (("depth", depth), ("scaffold", scaffold)):
+        check_floats(name, x, "depth in metres, as floats (16 bits of millimetres: depth * 1e-3)")
+    check_shapes(depth=depth, scaffold=scaffold)
     where = scaffold > 0 if mask is None else (scaffold > 0) & mask
     difference = (depth.astype(np.float64) - scaffold)[where]
     return DepthError(mae=_mean(np.abs(difference)), rmse=float(np.sqrt(_mean(difference**2))))
 
 
-def normals_from_depth(depth: Float[np.ndarray, "h w"], camera: Camera) -> Float[np.ndarray, "h w 3"]:
-    """World normals facing the camera, from central differences of the depth; 0 on the image's border and where they vanish."""
+def normals_from_depth(depth: Num[np.ndarray, "h w"], camera: Camera) -> Float[np.ndarray, "h w 3"]:
+    """World normals facing the camera, from central differences of the depth; 0 on the image's border and where they vanish.
+
+    Raises:
+        TypeError: the depth is no array of floats, which metres are.
+    """
+    check_floats("depth", depth, "depth in metres, as floats (16 bits of millimetres: depth * 1e-3)")
     points = unproject_depth(camera, depth)
     normal = np.zeros_like(points)
     across = points[1:-1, 2:] - points[1:-1, :-2]

@@ -21,12 +21,14 @@ Source: Wang et al. 2004, eq. 13 (c1 = 0.01^2, c2 = 0.03^2 for images in [0, 1])
 """
 
 import dataclasses
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Num
 
+from wm.splat.image_checks import check_images
 from wm.splat.xla.fusion_barrier import fusion_barrier
 
 RADIUS = 5
@@ -48,19 +50,24 @@ class _Residual:
     d_mixed: Array
 
 
-def ssim(x: Float[Array, "h w c"], y: Float[Array, "h w c"]) -> Float[Array, ""]:
+def ssim(x: Num[Any, "..."], y: Num[Any, "..."]) -> Float[Array, ""]:
     """Mean structural similarity of two images in [0, 1]: 1 for equal ones.
 
     Args:
-        x, y: images [h, w, c], any range but the constants are meant for [0, 1].
+        x, y: images [h, w, c] of floats from 0 to 1; a render may overshoot.
 
     Returns: the mean of `ssim_map` over pixels and channels; differentiable in both.
+
+    Raises:
+        TypeError: an image is no array of floats.
+        ValueError: shapes differ, or values lie outside the range, where they are there to be seen (not inside jit).
     """
     return jnp.mean(ssim_map(x, y))
 
 
-def ssim_map(x: Float[Array, "h w c"], y: Float[Array, "h w c"]) -> Float[Array, "h w c"]:
-    """Structural similarity of the windows around each pixel, unreduced; differentiable in both images."""
+def ssim_map(x: Num[Any, "..."], y: Num[Any, "..."]) -> Float[Array, "h w c"]:
+    """Structural similarity of the windows around each pixel, unreduced; differentiable in both images. Raises as `ssim`."""
+    check_images(x=x, y=y)
     return jnp.moveaxis(_of_planes(jnp.moveaxis(x, -1, 0), jnp.moveaxis(y, -1, 0)), 0, -1)
 
 

@@ -116,7 +116,7 @@ def _heldout_metrics(run: RunContext, scene: Scene, result: ReconstructedScene, 
         for _, members in itertools.groupby(scene.heldout, key=lambda view: view.room):
             seen = []
             for one in look_all(scene, result.renderer, list(members)):
-                row = _alignment(scene, one)
+                row = _alignment(scene, one, depth=run.config.raster.depth)
                 if heldout.known:
                     row |= _photometry(one.render.rgb, heldout.truth(one.view))
                 picture = codecs.encode_png(codecs.to_bytes(one.render.rgb))
@@ -124,7 +124,8 @@ def _heldout_metrics(run: RunContext, scene: Scene, result: ReconstructedScene, 
                 rows.append(row)
                 seen.append(one)
                 bar.update()
-            rows += _reprojection(seen, run.config.evaluate.min_overlap)
+            if run.config.raster.depth:
+                rows += _reprojection(seen, run.config.evaluate.min_overlap)
     measured = {name for row in rows for name in row}
     return {name: _mean([row[name] for row in rows if name in row]) for name in measured}
 
@@ -134,12 +135,17 @@ def _photometry(rgb: np.ndarray, truth: np.ndarray) -> dict[str, float]:
     return {"psnr": psnr(clipped, world), "ssim": float(_ssim(clipped, world))}
 
 
-def _alignment(scene: Scene, seen: Seen) -> dict[str, float]:
+def _alignment(scene: Scene, seen: Seen, *, depth: bool) -> dict[str, float]:
+    """How the splats agree with the scaffold; without the errors of a depth that was not rendered."""
+    holes = {"holes": _share(seen.render.alpha < HOLE, seen.gbuffer.hit)}
+    return holes | _depth_errors(scene, seen) if depth else holes
+
+
+def _depth_errors(scene: Scene, seen: Seen) -> dict[str, float]:
     depth = depth_error(seen.render.depth, seen.gbuffer.depth)
     surfaces = one_surface(_surface_of(scene, seen.gbuffer), seen.gbuffer.normal) & (seen.gbuffer.depth > 0)
     normal = normal_error(seen.render.depth, seen.view.camera, seen.gbuffer.normal, surfaces)
-    holes = _share(seen.render.alpha < HOLE, seen.gbuffer.hit)
-    return {"m_mae": depth.mae, "m_rmse": depth.rmse, "n_cos": normal.cosine, "n_ang_deg": normal.angle, "holes": holes}
+    return {"m_mae": depth.mae, "m_rmse": depth.rmse, "n_cos": normal.cosine, "n_ang_deg": normal.angle}
 
 
 def _share(what: np.ndarray, where: np.ndarray) -> float:

@@ -7,11 +7,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wm import codecs
+from wm import codecs, console
 from wm.artifacts import json_text
 from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, object_boxes
 from wm.geometry.mesh.glb import object_nodes, save_glb
 from wm.geometry.plan.site import room_site
+from wm.geometry.texture.atlas_export import coarse_rooms
 from wm.schema import RunConfig
 from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
@@ -154,6 +155,8 @@ def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
 def _export(run: RunContext, scene: Scene, result: PaintSummary, key: str) -> None:
     """Writes `scaffold.glb`: the structure with its painted texture, and every object as a node of its own."""
     nodes = [*atlas_nodes(result.atlas, scene.context.structure), *object_nodes(scene.objects, scene.rooms)]
+    for room in coarse_rooms(result.atlas):
+        console.say(f"{SCAFFOLD}: surfaces of {scene.rooms[room]} that no image holds at {result.atlas.texel_size} m are coarser")
     run.folder.save(
         "paint",
         key,

@@ -10,7 +10,8 @@ from wm import codecs, console
 from wm.geometry import cast, visible_rooms
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
-from wm.splat.ply import save_ply
+from wm.splat.ply import save_ply, save_point_cloud
+from wm.splat.rasterizer.harmonics import SH_C0
 from wm.splat.scene.scene_fit import fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.stages.executors import room_executor, worker_count
@@ -19,13 +20,16 @@ from wm.stages.history import HISTORY, history_text, read_history
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.run_context import RunContext
-from wm.stages.scene import Scene
+from wm.stages.scene import POINTS, Scene
 from wm.stages.starting import starting_gaussians
 from wm.types import OUTSIDE, Gaussians, GBuffer, View
 
 SPLATS, BY_ROOM = "splats.ply", "stages/splats.npz"
 CURVE_VIEWS = 2
 """Held-out views of a room that the error curve is measured on while fitting; the evaluation uses all of them."""
+
+VISIBLE_LOGIT = float(np.log(1 / 254))
+"""Of opacity 1 / 255, at or below which every rasterizer of gaussians leaves one out."""
 
 _LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
 
@@ -146,15 +150,24 @@ def _fit(run: RunContext, scene: Scene, painted: Painted, truths: HeldOut, capac
         key,
         {
             BY_ROOM: codecs.encode_arrays(_join(result.gaussians)),
-            SPLATS: lambda path: save_ply(path, merge_gaussians(result.gaussians)),
+            POINTS: lambda path: save_point_cloud(path, *points_of(start)),
+            SPLATS: lambda path: save_ply(path, visible_gaussians(result.gaussians), antialias=config.raster.antialias),
         },
     )
     folder.drop_others("fit/", set())
 
 
-def merge_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
-    """All rooms as one set, in order."""
-    return jax.tree.map(lambda *leaves: np.concatenate(leaves), *rooms)
+def points_of(rooms: Sequence[Gaussians]) -> tuple[np.ndarray, np.ndarray]:
+    """The centres [p, 3] of the initial gaussians of all rooms, in order, and their colours [p, 3] uint8."""
+    colors = np.concatenate([0.5 + SH_C0 * np.asarray(room.sh[:, 0]) for room in rooms])
+    return np.concatenate([np.asarray(room.means) for room in rooms]), codecs.to_bytes(colors[:, None])[:, 0]
+
+
+def visible_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
+    """All rooms in order, without the gaussians that refinement has left with an opacity that no program draws."""
+    merged = jax.tree.map(lambda *leaves: np.concatenate(leaves), *rooms)
+    kept = merged.opacity_logits > VISIBLE_LOGIT
+    return jax.tree.map(lambda leaf: leaf[kept], merged)
 
 
 def _join(rooms: Sequence[Gaussians]) -> dict[str, np.ndarray]:

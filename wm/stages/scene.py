@@ -33,6 +33,7 @@ from wm.types import Mesh, SceneObject, View
 PLAN, LAYOUT, OBJECTS, OBJECT_ARRAYS, CAMERAS = "plan.json", "layout.json", "objects.json", "stages/objects.npz", "cameras.json"
 _FORMAT = "ids"
 """Part of the furniture's key: older run folders hold objects without ids."""
+HELDOUT_CAMERAS, POINTS = "cameras.heldout.json", "points.ply"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -186,8 +187,10 @@ def _cameras(run: RunContext, plan: FloorPlan, rays: RayScene) -> tuple[tuple[Vi
     settings = run.config.cameras
     views = tuple(place_cameras(plan, rays, settings))
     heldout = tuple(place_heldout(plan, rays, views, settings))
-    frames = codecs.transforms_json(views, [room.id for room in plan.rooms], "splats.ply")
-    key = run.key("cameras", settings, json.dumps(frames))
+    rooms = [room.id for room in plan.rooms]
+    frames = codecs.transforms_json(views, rooms, POINTS)
+    apart = codecs.heldout_json(heldout, rooms, "heldout/{}.truth.png")
+    key = run.key("cameras", settings, json.dumps([frames, apart]))
     if not run.folder.has("cameras", key):
-        run.folder.save("cameras", key, {CAMERAS: json_text(frames)})
+        run.folder.save("cameras", key, {CAMERAS: json_text(frames), HELDOUT_CAMERAS: json_text(apart)})
     return views, heldout

@@ -8,8 +8,9 @@ import pytest
 from tests.geometry.plans import two_rooms
 from wm.geometry.mesh.glb import save_glb
 from wm.geometry.mesh.structure import build_structure
+from wm.geometry.texture import atlas_export
 from wm.geometry.texture.atlas import build_atlas, texel_positions
-from wm.geometry.texture.atlas_export import atlas_nodes
+from wm.geometry.texture.atlas_export import atlas_nodes, coarse_rooms
 
 
 def ramp(points):
@@ -79,3 +80,19 @@ def test_a_mesh_that_is_not_the_atlas_s_is_refused():
     mesh, atlas = painted()
     with pytest.raises(ValueError, match="faces"):
         atlas_nodes(dataclasses.replace(atlas, face_chart=atlas.face_chart[:-1]), mesh)
+
+
+@pytest.mark.parametrize(("largest", "coarse"), [(110, False), (60, True)])
+def test_no_image_is_larger_than_viewers_show_and_points_find_their_colours(monkeypatch, largest, coarse):
+    monkeypatch.setattr(atlas_export, "LARGEST_SIDE", largest)
+    mesh, atlas = painted()
+    *rooms, exterior = atlas_nodes(atlas, mesh)
+    assert max(max(node.texture.shape[:2]) for node in rooms) <= largest
+    assert len(rooms) > 2 and len({node.name for node in rooms}) == len(rooms)
+    assert {node.name.split(" part ")[0] for node in rooms} == {"room 0", "room 1"}
+    assert sum(len(node.faces) for node in [*rooms, exterior]) == len(mesh.faces)
+    assert bool(coarse_rooms(atlas)) == coarse
+    for node in rooms:
+        middle = node.vertices[node.faces].mean(1)
+        column, row = (node.uv[node.faces].mean(1) * node.texture.shape[1::-1]).astype(int).T
+        assert np.abs(node.texture[row, column] / 255 - ramp(middle)).max() < (0.07 if coarse else 0.025)

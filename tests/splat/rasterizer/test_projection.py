@@ -70,7 +70,6 @@ CULLED = {
     "opacity 0": {"opacity_logits": [-50.0]},
     "opacity logit -inf": {"opacity_logits": [-np.inf]},
     "infinite scale": {"log_scales": [[np.inf, 0.0, 0.0]]},
-    "infinitely thin": {"log_scales": [[-1.0, -2.0, -np.inf]]},
     "infinite quat": {"quats": [[1.0, np.inf, 0.0, 0.0]]},
     "opacity below the cut": {"opacity_logits": [-6.0]},
     "NaN colour": {"sh": [[[np.nan, 0.0, 0.0]]]},

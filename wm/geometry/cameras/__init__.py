@@ -10,4 +10,6 @@
     exposed_surface  what an eye may see from anywhere in a room
     visibility       coverage: which surfaces the views see
     sightlines       visible_rooms: which rooms a view looks into
+    camera_file      load_cameras: views from cameras.json or any transforms.json
+    colmap           save_colmap: views and points as COLMAP's sparse model
 """

@@ -60,7 +60,7 @@ def furnish_site(site: Site, kind: str, style: Style, *, seed: int, room: int, d
     arrangement = RoomArrangement(layout, style, rng, density)
     if kind in EQUIPPED:
         equip(arrangement, kind, EQUIPPED[kind])
-        return layout.placed
+        return granted(layout.placed, style)
     if kind != "bathroom" and rng.random() < 0.55 + 0.4 * style.form.softness:
         curtain_pairs(arrangement)
     PROGRAMME[kind](arrangement)

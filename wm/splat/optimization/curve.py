@@ -15,18 +15,31 @@ HELDOUT = ("psnr", "m_mae", "n_ang_deg")
 
 @dataclasses.dataclass(frozen=True)
 class FitPoint:
-    """A fit at one step: means of the loss terms since the last point, and held-out error if there are such views."""
+    """A fit at one step: means of the loss terms since the last point, and held-out error if there are such views.
 
-    seconds: float  # wall-clock since the fit began
-    step: int  # steps of this room so far
+    Attributes:
+        seconds: wall-clock since the fit began
+        step: steps of this room so far
+        room: its index
+        loss: mean of the whole loss
+        l1: mean absolute difference of colours
+        dissimilarity: mean 1 - SSIM
+        depth: mean absolute difference of depths, metres
+        psnr: held-out, dB; NaN without held-out views
+        m_mae: held-out, metres; NaN without held-out views or without depth
+        n_ang_deg: held-out, degrees between normals; NaN likewise
+    """
+
+    seconds: float
+    step: int
     room: int
     loss: float
     l1: float
-    dissimilarity: float  # mean 1 - SSIM
-    depth: float  # metres
-    psnr: float  # held-out, dB; NaN without held-out views
-    m_mae: float  # held-out, metres; NaN without held-out views or without depth
-    n_ang_deg: float  # held-out, degrees between normals; NaN likewise
+    dissimilarity: float
+    depth: float
+    psnr: float
+    m_mae: float
+    n_ang_deg: float
 
 
 def curve_steps(settings: FitSettings) -> list[int]:

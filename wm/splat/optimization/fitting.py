@@ -28,11 +28,17 @@ Progress = Callable[[int, int, dict], None]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Fit:
-    """The result of a fit."""
+    """The result of a fit.
 
-    gaussians: Gaussians  # NumPy float32 leaves, in the order of those it started from
-    history: tuple[FitPoint, ...]  # error against time up to these gaussians, without points of later steps that were discarded
-    stopped: str | None  # why it ended early, in one sentence; None: it ran to its end
+    Attributes:
+        gaussians: NumPy float32 leaves, in the order of those it started from
+        history: error against time up to these gaussians, without points of later steps that were discarded
+        stopped: why it ended early, in one sentence; None: it ran to its end
+    """
+
+    gaussians: Gaussians
+    history: tuple[FitPoint, ...]
+    stopped: str | None
 
 
 class FitError(RuntimeError):

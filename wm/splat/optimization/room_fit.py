@@ -194,7 +194,7 @@ def view_error(compiled: Compiled, gaussians: Gaussians, seen: SeenView) -> tupl
     over those where the scaffold is smooth, with its normals from the same differences of its depth."""
     render = compiled.render(gaussians, seen)
     target = host(seen.target)
-    value = psnr(render.rgb, target.rgb / np.float32(255), target.mask)
+    value = psnr(np.clip(render.rgb, 0, 1), target.rgb / np.float32(255), target.mask)
     if not compiled.raster.depth:
         return value, float("nan"), float("nan")
     inner = np.zeros_like(target.mask)

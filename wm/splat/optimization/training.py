@@ -12,17 +12,28 @@ class TrainingView:
     """One posed image of one room with its scaffold, on the host.
 
     Raises: ValueError at construction, naming the array whose shape does not fit the camera.
+
+    Attributes:
+        camera: where the image was taken from
+        rgb: [h, w, 3] uint8 sRGB
+        depth: [h, w] float32 z-depth of the scaffold, metres; 0 where it is not hit
+        mask: [h, w] bool: usable pixels
+        room: the room it stands in
+        own: [h, w] bool: pixels that show a surface of `room`; None: all of them
+        normal: [h, w, 3] float32 world normal of the scaffold; None: taken from the depth
+        detailed: [h, w] bool: pixels of surfaces with detail, such as objects; None: of none
+        sees: other rooms that it may see into, through doors
     """
 
     camera: Camera
-    rgb: np.ndarray  # [h, w, 3] uint8
-    depth: np.ndarray  # [h, w] float32 z-depth of the scaffold, metres; 0 where it is not hit
-    mask: np.ndarray  # [h, w] bool: usable pixels
-    room: int  # the room it stands in
-    own: np.ndarray | None = None  # [h, w] bool: pixels that show a surface of `room`; None: all of them
-    normal: np.ndarray | None = None  # [h, w, 3] float32 world normal of the scaffold; None: taken from the depth
-    detailed: np.ndarray | None = None  # [h, w] bool: pixels of surfaces with detail, such as objects; None: of none
-    sees: tuple[int, ...] = ()  # other rooms that it may see into, through doors
+    rgb: np.ndarray
+    depth: np.ndarray
+    mask: np.ndarray
+    room: int
+    own: np.ndarray | None = None
+    normal: np.ndarray | None = None
+    detailed: np.ndarray | None = None
+    sees: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         size = (self.camera.height, self.camera.width)

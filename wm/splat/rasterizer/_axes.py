@@ -1,12 +1,12 @@
 """Functions that the projection and its vector-Jacobian product share: rotations of quaternions, the clamp of slopes near the
-frustum, the compensation of opacity for the blur, and the slope of depth over an ellipse."""
+frustum, the compensation of opacity for the blur, and the slope of depth over an ellipse with its limit."""
 
 import functools
 
 import jax
 import jax.numpy as jnp
 
-from wm.numerics import safe_div
+from wm.numerics import safe_div, safe_sqrt
 from wm.schema import RasterSettings
 from wm.types import Camera
 
@@ -67,6 +67,28 @@ def depth_slope(M, N, det, settings: RasterSettings):
     right = dot(N, cross(M[2], M[1])) + settings.blur * dot(M[0], M[2])
     down = dot(N, cross(M[0], M[2])) + settings.blur * dot(M[1], M[2])
     return right / det, down / det
+
+
+def limited_slope(slope, root, opacity, depth, settings: RasterSettings):
+    """The slope of depth, reduced where depth would otherwise fall below `near` somewhere on the ellipse that is drawn.
+
+    The slope belongs to a plane under the affine approximation of perspective, which means nothing far from the centre of a
+    gaussian that is large beside its distance: a floor seen from knee height would have negative depths.
+
+    Args:
+        slope: [2] rows of n; root: [3] rows, the Cholesky factor of the conic; opacity: 0 where culled; depth: of the centre.
+    """
+    drawn = opacity > settings.alpha_min
+    l0, l1, l2 = (jnp.where(drawn, row, 1.0) for row in root)
+    # s . d = h . e with e = (l0 dx + l1 dy, l2 dy), whose length is at most sqrt(2 ln(o / alpha_min)) where alpha is not cut
+    h0 = slope[0] / l0
+    h1 = (slope[1] - l1 * h0) / l2
+    farthest = 2 * jnp.log(jnp.where(drawn, opacity, settings.alpha_min) / settings.alpha_min)
+    reach = safe_sqrt(farthest * (h0 * h0 + h1 * h1))
+    room = depth - settings.near
+    limited = drawn & (reach > room)
+    scale = jnp.where(limited, room / jnp.where(limited, reach, 1.0), 1.0)
+    return [row * scale for row in slope]
 
 
 def dot(p, q):

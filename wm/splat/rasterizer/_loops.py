@@ -33,7 +33,7 @@ def forward(table, plan: TilePlan, *, columns: int, settings: RasterSettings) ->
             _, g, alpha = _alphas(table, plan.ids, origin, start, count, i, settings)
             for k, feature in enumerate(_features(g, origin, settings)):
                 w = weight(t, alpha[:, k], settings)
-                F = F + w[:, None] * feature
+                F = F + w[:, None] * feature[None]
                 t = t - w
             i = i + settings.chunk
             # a lane goes on while it has entries and an open pixel; where it stops is what the backward pass will visit
@@ -99,7 +99,7 @@ def _weights(t, alpha, settings: RasterSettings):
 
 def _shares(w, features, g_F):
     """w_i g . f_i, [pixels, chunk, lanes]."""
-    return w * sum(features[:, j] * g_F[:, j, None] for j in range(g_F.shape[1]))
+    return w * sum(features[None, :, j] * g_F[:, j, None] for j in range(g_F.shape[1]))
 
 
 def _slopes(rest, alpha, w, shares, settings: RasterSettings):
@@ -113,22 +113,28 @@ def _slopes(rest, alpha, w, shares, settings: RasterSettings):
 
 def _origins(tile, columns: int, settings: RasterSettings):
     """Centres of tiles, [2, lanes] pixels."""
-    return (jnp.stack([tile % columns, tile // columns]) + jnp.float32(0.5)) * settings.tile
+    return (jnp.stack([tile % columns, tile // columns]).astype(jnp.float32) + 0.5) * settings.tile
 
 
 def _alphas(table, ids, origin, start, count, i, settings: RasterSettings):
     """The chunk at i: gaussians [chunk, lanes], their rows [columns, chunk, lanes], their alphas [pixels, chunk, lanes]."""
     step = i + jnp.arange(settings.chunk)[:, None]
-    entry = ids.at[start + step].get(mode="clip")
+    entry = ids.at[start[None] + step].get(mode="clip")
     g = table.at[entry].get(mode="promise_in_bounds")
     g = jnp.stack([g[..., j] for j in range(table.shape[1])])  # moved, the axis would stay last in memory and lanes apart
     u, v = (x[:, None, None] for x in offsets(settings.tile))
 
     def alphas(x, y, l0, l1, l2, log2_opacity):
-        return alpha_at(u - x, v - y, l0, l1, l2, log2_opacity, settings)
+        l0, l1, l2, log2_opacity = (row[None] for row in (l0, l1, l2, log2_opacity))
+        return alpha_at(u - x[None], v - y[None], l0, l1, l2, log2_opacity, settings)
 
-    log2_opacity = jnp.where(step < count, g[5], -jnp.inf)
-    return entry, g, fusion_barrier(start[0] < 0, alphas, g[0] - origin[0], g[1] - origin[1], g[2], g[3], g[4], log2_opacity)
+    log2_opacity = jnp.where(step < count[None], g[5], -jnp.inf)
+    return entry, g, fusion_barrier(start[0] < 0, alphas, *_place(g, origin), g[2], g[3], g[4], log2_opacity)
+
+
+def _place(g, origin):
+    """x, y of the means from the centres of their tiles, [chunk, lanes] each."""
+    return g[0] - origin[0][None], g[1] - origin[1][None]
 
 
 def _features(g, origin, settings: RasterSettings):
@@ -143,6 +149,6 @@ def _features(g, origin, settings: RasterSettings):
 def _gradient_rows(g, origin, place_moments, feature_sums, settings: RasterSettings):
     """Derivatives with respect to the columns of the table, [chunk, lanes, columns], from moments of dL/d ln alpha and sums of
     w g."""
-    place = (g[0] - origin[0], g[1] - origin[1])
+    place = _place(g, origin)
     place_moments, feature_sums = ([x[:, j] for j in range(x.shape[1])] for x in (place_moments, feature_sums))
     return jnp.stack(gradient_columns(place, g[2:5], g[GEOMETRY + DEPTH + 1 :], place_moments, feature_sums, settings), -1)

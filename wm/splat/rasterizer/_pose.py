@@ -48,7 +48,7 @@ def _exact_affine(A, x, b):
 @_exact_affine.defjvp
 def _exact_affine_jvp(primals, tangents):
     (A, x, _), (dA, dx, db) = primals, tangents
-    return _exact_affine(*primals), (dA * x + A * dx).sum(1) + db
+    return _exact_affine(*primals), (dA * x[None] + A * dx[None]).sum(1) + db
 
 
 def _compensated(A, x, b):

@@ -105,13 +105,24 @@ def _layers(gaussians: Gaussians, camera: Camera, settings: RasterSettings) -> _
     q = 0.5 * jnp.einsum("hwni,nij,hwnj->hwn", d, inverse, d)
     depth = jnp.broadcast_to(z, q.shape)
     if settings.slanted:
-        depth = depth + jnp.einsum("hwni,nij,njk,nk->hwn", d, inverse, M, m)  # E[z | x, y] of the blurred gaussian
+        slope = _limited(jnp.einsum("nij,njk,nk->ni", inverse, M, m), sigma, opacity, z, settings)
+        depth = depth + jnp.einsum("hwni,ni->hwn", d, slope)  # E[z | x, y] of the blurred gaussian
     order = jnp.argsort(z, stable=True)
     unclamped = jnp.where(front, opacity * jnp.exp(-q), 0.0)[..., order]
     alpha = jnp.where(unclamped >= settings.alpha_min, jnp.minimum(settings.alpha_max, unclamped), 0.0)
     passed = jnp.cumprod(1 - alpha, axis=-1)
     T = jnp.concatenate([jnp.ones_like(passed[..., :1]), passed[..., :-1]], -1)
     return _Layers(unclamped=unclamped, alpha=alpha, transmittance=T, color=color[order], depth=depth[..., order])
+
+
+def _limited(slope, sigma, opacity, z, settings: RasterSettings):
+    """Slopes of depth [n, 2], reduced so that z is at least `near` where d^T Sigma^-1 d <= 2 ln(o / alpha_min)."""
+    drawn = opacity > settings.alpha_min
+    radius = 2 * jnp.log(jnp.where(drawn, opacity, settings.alpha_min) / settings.alpha_min)
+    reach = radius * jnp.einsum("ni,nij,nj->n", slope, sigma, slope)  # squared
+    limited = reach > (z - settings.near) ** 2
+    scale = jnp.where(limited, (z - settings.near) / jnp.sqrt(jnp.where(limited, reach, 1.0)), 1.0)
+    return slope * scale[:, None]
 
 
 def _image_axes(gaussians: Gaussians, R, p, camera: Camera, settings: RasterSettings):
@@ -143,4 +154,5 @@ def _color(gaussians: Gaussians, centre):
     away = jnp.where(jnp.any(away != 0, axis=1, keepdims=True), away, 1.0)
     basis = harmonics((away / jnp.linalg.norm(away, axis=1, keepdims=True)).T, degree)
     parts = (jnp.broadcast_to(Y, away.shape[:1])[:, None] * gaussians.sh[:, k] for k, Y in enumerate(basis))
-    return sum(parts, jnp.full(3, 0.5))
+    color = sum(parts, jnp.full(3, 0.5))
+    return jnp.where(color < 0, 0.0, color)

@@ -25,7 +25,7 @@ def moments_of_rows(d: Float[Array, "pixels chunk lanes"]) -> Float[Array, "rows
     """Sums of d times 1, u, u^2 along every row."""
     d = _by_rows(d)
     powers = _along(d.shape[1])[:, None, None] ** np.arange(3, dtype=np.float32)[:, None]
-    return total(d[:, i, :, None] * power for i, power in enumerate(powers))
+    return total(d[:, i, :, None] * power[None, None] for i, power in enumerate(powers))
 
 
 def moments(sums: Float[Array, "rows chunk 3 lanes"]) -> Float[Array, "chunk 6 lanes"]:

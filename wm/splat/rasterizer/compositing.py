@@ -6,7 +6,8 @@ d log2 x = log2(e) d ln x.
 
 Per pixel, over its tile's list: alpha = 2^min(log2 o - q, log2 alpha_max), dropped below alpha_min; w_i = T_i alpha_i,
 T_{i+1} = T_i - w_i; features F = sum w_i f_i: colour, and depth z_i + s_i . d, which is linear in the pixel's place (u, v) in its
-tile and so three features, z_i + s_i . (centre of the tile - mean_i) and s_i, combined once per pixel. A pixel is finished once
+tile and so three features, z_i + s_i . (centre of the tile - mean_i) and s_i, combined once per pixel; s_i is limited so that
+what is drawn of a gaussian lies beyond `near`. A pixel is finished once
 T < transmittance_min: the gaussian that took it there still counts, later ones do not. Which tile, block or chunk a pixel falls
 in changes nothing.
 
@@ -32,7 +33,7 @@ from jaxtyping import Array, Bool, Float
 from wm.numerics import safe_div
 from wm.schema import RasterSettings
 from wm.splat.rasterizer import _loops
-from wm.splat.rasterizer._axes import has_slope
+from wm.splat.rasterizer._axes import has_slope, limited_slope
 from wm.splat.rasterizer._pairs import DEPTH, GEOMETRY, Composite
 from wm.splat.rasterizer._tile_sums import offsets
 from wm.splat.rasterizer.checks import check_raster
@@ -57,7 +58,7 @@ def rasterize(
         projected: what `project` returned.
         plan: what `plan_tiles` returned for as many gaussians and the same width, height and settings.
         width, height: of the image, pixels.
-        settings: alpha_min, alpha_max, transmittance_min, tile, chunk, depth, slanted and compositor are read here.
+        settings: near, alpha_min, alpha_max, transmittance_min, tile, chunk, depth, slanted and compositor are read here.
         background: colour behind everything; None is black.
         frozen: more gaussians, after those of `projected` in the plan's numbering; not differentiated.
 
@@ -79,7 +80,7 @@ def rasterize(
     t = image(composite.transmittance)
     rgb = jnp.stack([image(composite.features[:, j]) for j in range(3)], -1)
     if background is not None:
-        rgb = rgb + t[..., None] * jnp.asarray(background, jnp.float32)
+        rgb = rgb + t[..., None] * jnp.broadcast_to(jnp.asarray(background, jnp.float32), rgb.shape)
     depth = safe_div(image(_depth(composite.features, settings)), 1 - t) if settings.depth else jnp.zeros_like(t)
     return Render(rgb=rgb, depth=depth, alpha=1 - t)
 
@@ -112,7 +113,8 @@ def _rows(projected: Projected, settings: RasterSettings) -> Float[Array, "n col
     if settings.depth:
         features.append(projected.depth[None])
     if has_slope(settings):
-        features.append(projected.slope)
+        limited = limited_slope(projected.slope, projected.root, projected.opacity, projected.depth, settings)
+        features.append(jnp.stack(limited))
     columns = [projected.mean2d, projected.root * math.sqrt(0.5 * math.log2(math.e)), log2_opacity[None], *features]
     return jnp.concatenate(columns).T
 
@@ -139,7 +141,7 @@ def _depth(features: Float[Array, "lanes features pixels"], settings: RasterSett
     """The weighted sum of depths at every pixel."""
     if not has_slope(settings):
         return features[:, DEPTH]
-    u, v = offsets(settings.tile)
+    u, v = (x[None] for x in offsets(settings.tile))
     return features[:, DEPTH] + u * features[:, DEPTH + 1] + v * features[:, DEPTH + 2]
 
 

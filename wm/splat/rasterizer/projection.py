@@ -39,18 +39,32 @@ DEFAULTS = RasterSettings()
 FARTHEST = 1e9
 """Ellipses whose centre or size exceeds this many pixels are culled: float32 has no digits left there, and q stays finite."""
 
+FLATTEST = -60.0
+"""Log scales below this count as this one, 1e-26 m, so that those of discs (-inf) meet no 0 * inf; the scale of a disc then has
+no gradient beyond rounding."""
+
 
 @record
 class Projected:
-    """Gaussians on the image plane, on the device, channel-first. Culled ones have opacity 0 and extent 0."""
+    """Gaussians on the image plane, on the device, channel-first. Culled ones have opacity 0 and extent 0.
 
-    mean2d: Any  # [2, n] pixels
-    root: Any  # [3, n] l, the Cholesky factor of the conic, px^-1: q = 1/2 ((l0 dx + l1 dy)^2 + (l2 dy)^2)
-    opacity: Any  # [n] o, compensated with `antialias`
-    color: Any  # [3, n] sRGB-encoded, seen from this camera
-    depth: Any  # [n] z-depth of the centre, metres
-    slope: Any  # [2, n] growth of depth per pixel to the right and down, metres; 0 unless `depth` and `slanted`
-    extent: Any  # [2, n] half width and half height of the ellipse where alpha falls to `alpha_min`, px; no gradient
+    Attributes:
+        mean2d: [2, n] pixels
+        root: [3, n] l, the Cholesky factor of the conic, px^-1: q = 1/2 ((l0 dx + l1 dy)^2 + (l2 dy)^2)
+        opacity: [n] o, compensated with `antialias`
+        color: [3, n] sRGB-encoded, seen from this camera
+        depth: [n] z-depth of the centre, metres
+        slope: [2, n] growth of depth per pixel to the right and down, metres; 0 unless `depth` and `slanted`
+        extent: [2, n] half width and half height of the ellipse where alpha falls to `alpha_min`, px; no gradient
+    """
+
+    mean2d: Any
+    root: Any
+    opacity: Any
+    color: Any
+    depth: Any
+    slope: Any
+    extent: Any
 
 
 def project(gaussians: Gaussians, camera: Camera, settings: RasterSettings = DEFAULTS) -> Projected:
@@ -88,8 +102,8 @@ def _project_fwd(gaussians: Gaussians, camera: Camera, settings: RasterSettings)
         visible = _is_visible(raw, covariance, settings)
         # alpha falls to alpha_min on the ellipse d^T Sigma^-1 d = 2 ln(o / alpha_min), whose box is radius * sqrt(diagonal)
         ratio = jnp.where(visible, raw.opacity, settings.alpha_min) / settings.alpha_min
-        extent = jnp.sqrt(2 * jnp.log(ratio) * jnp.where(visible, covariance, 0.0))
-        return dataclasses.replace(jax.tree.map(lambda x: jnp.where(visible, x, 0.0), raw), extent=extent)
+        extent = jnp.sqrt(2 * jnp.log(ratio)[None] * _or_zero(visible, covariance))
+        return dataclasses.replace(jax.tree.map(functools.partial(_or_zero, visible), raw), extent=extent)
 
     def opaque(gaussians: Gaussians) -> Bool[Array, ""]:
         return (jnp.exp(gaussians.opacity_logits) >= settings.alpha_min).any()  # more than the opacity, so nothing is missed
@@ -144,16 +158,16 @@ def _visible_rows(gaussians: Gaussians, visible, cotangent: Projected):
     So culled gaussians are replaced by one that is safe to differentiate before the pass is run again: a NaN of theirs would
     reach the camera's gradient, which sums over all.
     """
-    rows = jax.tree.map(lambda x: jnp.where(visible, x, 0.0), _rows(gaussians))
+    rows = jax.tree.map(functools.partial(_or_zero, visible), _rows(gaussians))
     no_extent = dataclasses.replace(cotangent, extent=jnp.zeros_like(cotangent.extent))
-    return rows, jax.tree.map(lambda x: jnp.where(visible, x, 0.0), no_extent)
+    return rows, jax.tree.map(functools.partial(_or_zero, visible), no_extent)
 
 
 _project.defvjp(_project_fwd, _project_bwd)
 
 
 def _rows(gaussians: Gaussians):
-    """Means [3], quats [4], log_scales [3] as rows (n), opacity_logits, and sh [k] as (3, n).
+    """Means [3], quats [4], log_scales [3] as rows (n), opacity_logits, and sh [k] as (3, n); no log scale below FLATTEST.
 
     The transpose is a product with the identity: XLA on a CPU would fuse a plain one with all arithmetic that follows.
     """
@@ -163,7 +177,12 @@ def _rows(gaussians: Gaussians):
         return [columns[i] for i in range(x.shape[1])]
 
     sh = [gaussians.sh[:, k].T for k in range(gaussians.sh.shape[1])]
-    return split(gaussians.means), split(gaussians.quats), split(gaussians.log_scales), gaussians.opacity_logits, sh
+    log_scales = jnp.maximum(gaussians.log_scales, FLATTEST)
+    return split(gaussians.means), split(gaussians.quats), split(log_scales), gaussians.opacity_logits, sh
+
+
+def _or_zero(visible: Bool[Array, " n"], x: Float[Array, "*rows n"]) -> Float[Array, "*rows n"]:
+    return jnp.where(jnp.broadcast_to(visible, x.shape), x, 0.0)
 
 
 def _ellipses(
@@ -211,14 +230,20 @@ def _image_axes(quats, log_scales, T, scale, slope):
 
 
 def _colors(sh, x_world, T):
-    """0.5 + sum_k sh_k Y_k(direction from the camera), (3, n). With one coefficient no direction is computed."""
+    """max(0, 0.5 + sum_k sh_k Y_k(direction from the camera)), (3, n). With one coefficient no direction is computed.
+
+    As in Kerbl et al. (2023), a channel below 0 is 0 and its coefficients have no gradient there.
+    """
     degree = DEGREES[len(sh)]
     if degree == 0:
-        return 0.5 + harmonics(None, 0)[0] * sh[0]
-    x, y, z = from_centre(x_world, T)
-    length = safe_sqrt(x * x + y * y + z * z)
-    direction = jnp.stack([safe_div(x, length), safe_div(y, length), safe_div(z, length)])
-    return 0.5 + sum(Y * band for Y, band in zip(harmonics(direction, degree), sh))
+        color = 0.5 + harmonics(None, 0)[0] * sh[0]
+    else:
+        x, y, z = from_centre(x_world, T)
+        length = safe_sqrt(x * x + y * y + z * z)
+        direction = jnp.stack([safe_div(x, length), safe_div(y, length), safe_div(z, length)])
+        constant, *basis = harmonics(direction, degree)
+        color = 0.5 + sum((Y[None] * band for Y, band in zip(basis, sh[1:])), constant * sh[0])
+    return jnp.where((color < 0) & (color > -jnp.inf), 0.0, color)  # -inf stays, and is culled
 
 
 def _is_visible(raw: Projected, covariance, settings: RasterSettings) -> Bool[Array, " n"]:

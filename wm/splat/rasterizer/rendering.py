@@ -40,7 +40,7 @@ def render(
 
     Args:
         gaussians: n gaussians in world space; n may be 0. Unless `checked`, one that is not finite is left out, but for an
-            opacity logit of +inf, which is that of opacity 1.
+            opacity logit of +inf, which is that of opacity 1, and a log scale of -inf, which is that of a disc.
         camera: where they are seen from; any image size from 1 x 1.
         background: colour behind everything, one colour or one per pixel; None is black.
         settings: the constants of the rasterizer, static under jit.

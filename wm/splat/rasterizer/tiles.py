@@ -28,11 +28,17 @@ STRIP = 1 << 14
 
 
 class Planned(NamedTuple):
-    """The image size, tile size and number of gaussians that a plan was made for."""
+    """The image size, tile size and number of gaussians that a plan was made for.
 
-    width: int  # of the image, pixels
+    Attributes:
+        width, height: of the image, pixels
+        tile: edge of a tile, pixels
+        gaussians: their number
+    """
+
+    width: int
     height: int
-    tile: int  # edge of a tile, pixels
+    tile: int
     gaussians: int
 
     @property
@@ -46,13 +52,21 @@ class TilePlan:
     """The entries of every tile, as plain arrays, so that a plan is an argument of a jitted function; only `of` is static.
 
     Tiles are taken in blocks; a lane is the place of one tile in its block.
+
+    Attributes:
+        ids: [capacity] int32 gaussian of each entry, tile by tile, front to back; n (one past the last) beyond the entries
+        tile: [blocks, lanes] int32 tile of each lane, row-major index; lanes without a tile repeat one with count 0
+        start: [blocks, lanes] int32 its first entry
+        count: [blocks, lanes] int32 how many entries it has
+        slot: [tiles] int32 the lane (blocks and lanes flattened) that holds each tile
+        of: what the plan was made for
     """
 
-    ids: Any  # [capacity] int32 gaussian of each entry, tile by tile, front to back; n (one past the last) beyond the entries
-    tile: Any  # [blocks, lanes] int32 tile of each lane, row-major index; lanes without a tile repeat one with count 0
-    start: Any  # [blocks, lanes] int32 its first entry
-    count: Any  # [blocks, lanes] int32 how many entries it has
-    slot: Any  # [tiles] int32 the lane (blocks and lanes flattened) that holds each tile
+    ids: Any
+    tile: Any
+    start: Any
+    count: Any
+    slot: Any
     of: Planned = dataclasses.field(metadata={"static": True})
 
 

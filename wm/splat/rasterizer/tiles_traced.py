@@ -23,10 +23,15 @@ COUNTABLE = 2.0**30
 
 @record
 class TracedPlan:
-    """A plan and whether it is whole: `plan` may be used only where `needed` is at most the capacity."""
+    """A plan and whether it is whole: `plan` may be used only where `needed` is at most the capacity.
 
-    plan: Any  # TilePlan of JAX arrays
-    needed: Any  # [] int32: the room that the view needs
+    Attributes:
+        plan: TilePlan of JAX arrays
+        needed: [] int32: the room that the view needs
+    """
+
+    plan: Any
+    needed: Any
 
 
 def plan_tiles_traced(

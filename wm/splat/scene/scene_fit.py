@@ -34,11 +34,17 @@ from wm.types import Gaussians
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SceneFit:
-    """The result of the fit of a scene."""
+    """The result of the fit of a scene.
 
-    gaussians: tuple[Gaussians, ...]  # by room, NumPy float32 leaves, each in the order it started in
-    history: tuple[FitPoint, ...]  # by room, then step
-    stopped: tuple[str, ...]  # one sentence for each room that ended early
+    Attributes:
+        gaussians: by room, NumPy float32 leaves, each in the order it started in
+        history: by room, then step
+        stopped: one sentence for each room that ended early
+    """
+
+    gaussians: tuple[Gaussians, ...]
+    history: tuple[FitPoint, ...]
+    stopped: tuple[str, ...]
 
 
 def fit_scene(
