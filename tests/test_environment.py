@@ -5,7 +5,7 @@ import pickle
 
 import pytest
 
-from wm.digests import digest
+from wm.artifacts.digests import digest
 from wm.environment import EnvironmentText, environment_values, masked, shown, shown_identity
 from wm.run import load_config
 from wm.validate import ConfigError

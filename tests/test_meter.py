@@ -8,9 +8,9 @@ import pytest
 
 from tests.test_memory import start_worker
 from wm import meter as module
+from wm.artifacts.timings import UNKNOWN
 from wm.memory import resident_gib
 from wm.meter import StageMeter
-from wm.timings import UNKNOWN
 
 
 def test_seconds_add_up_and_peaks_do_not():

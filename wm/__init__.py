@@ -3,19 +3,14 @@
 `wm.geometry`, `wm.splat` and `wm.synth` can each be used alone from Python; `python -m wm.run` runs them one after another.
 Importing `wm` itself loads none of its modules. Each imports only those below it (docs/architecture.md):
 
-    run           the command line
-    completion    words that TAB completes
-    help          what --help prints
-    command_line  plain words translated into overrides
-    keys          every key that can be set, and what it means
-    composition   the YAML of conf/ and overrides composed into one checked RunConfig
+    run           the command line: main, one run, a sweep
+    cli           between typed words and a checked configuration: composition, help, completion
     pipeline      run: the stages of a run in order
     stages        one stage a module, each with its entry in the run folder
     report        report.html, figures, the video, the table that compares runs
-    neighbours    the reuse cache: finished stages taken over from other run folders
+    meter         time and peak memory of each stage
     artifacts     the run folder: entries stored under a key of all their inputs
     codecs        the file formats of entries
-    meter         time and peak memory of each stage
     offline       the offline stand-ins for models
     models        backends of real models
     splat         gaussian splatting: rasterizer, fit, metrics
@@ -30,8 +25,10 @@ Importing `wm` itself loads none of its modules. Each imports only those below i
     process       worker processes
     bounds        what a field of a settings record may hold
     memory        resident memory of this process and its children
+    console       lines for the user, on streams that may be closed or full
+    environment   texts of a configuration that come out of the environment, never shown
     host          what the machine has
-    errors        InputError: an error that the user can mend
+    errors        InputError and its kinds: what the caller asked for cannot be done
 """
 
 __version__ = "0.1.0"

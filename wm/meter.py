@@ -5,8 +5,8 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 
+from wm.artifacts.timings import Row, Rows
 from wm.memory import MemoryProbe, resident_gib
-from wm.timings import Row, Rows
 
 SAMPLE_SECONDS = 0.05
 """Interval at which memory is read."""

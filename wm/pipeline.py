@@ -13,14 +13,15 @@ from tabulate import tabulate
 
 from wm import console
 from wm.artifacts import file_digest, identity, json_text, open_run_folder, write_atomically
-from wm.confined import confined
+from wm.artifacts.confined import confined
+from wm.artifacts.neighbours import Neighbours
+from wm.artifacts.timings import TIMINGS, UNKNOWN, Rows, read_rows
 from wm.environment import shown_identity
 from wm.errors import ArtifactError
 from wm.geometry.plan.loading import read_plan_file
 from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.metric_table import METRICS
-from wm.neighbours import Neighbours
 from wm.schema import STAGES, RunConfig
 from wm.splat.optimization.padding import Capacity
 from wm.stages.evaluation import evaluate
@@ -33,7 +34,6 @@ from wm.stages.run_context import RunContext, StoppedError, versions
 from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.stages.warm_up import warming_up
 from wm.synth.registry import close_backend, make_backend
-from wm.timings import TIMINGS, UNKNOWN, Rows, read_rows
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
 """The file of a stage whose content depends on the clock, and which therefore is not part of the stage's entry."""

@@ -1,12 +1,12 @@
-"""The command line: compose conf/ (wm.composition), run the pipeline, and say what went wrong in one line.
+"""The command line: compose conf/ (wm.cli.composition), run the pipeline, and say what went wrong in one line.
 
     wm gothic
     wm --theme "a children's library, bright" --rooms "hall, kitchen, bedroom"
     wm -m gothic variant=full,depth_only
 
-`python -m wm.run` is the same as `wm`; wm.command_line says what may be typed, wm.help what --help answers. Errors are one line
-on stderr (tracebacks with debug=true) and an exit code: 2 for input that cannot be run, 1 for a run that failed, 130 after
-Ctrl-C, 143 after SIGTERM.
+`python -m wm.run` is the same as `wm`; wm.cli.command_line says what may be typed, wm.cli.help what --help answers. Errors are
+one line on stderr (tracebacks with debug=true) and an exit code: 2 for input that cannot be run, 1 for a run that failed, 130
+after Ctrl-C, 143 after SIGTERM.
 """
 
 import contextlib
@@ -25,16 +25,17 @@ from hydra.errors import HydraException
 from hydra.types import RunMode
 from omegaconf.errors import OmegaConfBaseException
 
-from wm import command_line, composition, console
-from wm.atomic import discard_unfinished
-from wm.composition import CONF, freeze, one_line
-from wm.composition import load_config as load_config
-from wm.composition import options as options
+from wm import console
+from wm.artifacts.atomic import discard_unfinished
+from wm.cli import command_line, composition
+from wm.cli.composition import CONF, freeze, one_line
+from wm.cli.composition import load_config as load_config
+from wm.cli.composition import options as options
+from wm.cli.help import answer, asks_for_help
+from wm.cli.preflight import planned_runs, shared_folder
+from wm.cli.signals import ending
 from wm.errors import InputError
-from wm.help import answer, asks_for_help
-from wm.preflight import planned_runs, shared_folder
 from wm.schema import STAGES, RunConfig
-from wm.signals import ending
 from wm.validate import ConfigError as ConfigError
 
 FAILED, BAD_INPUT, INTERRUPTED = 1, 2, 130

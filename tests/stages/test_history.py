@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.digests import digest
+from wm.artifacts.digests import digest
 from wm.stages.history import history_text, read_history
 from wm.stages.reporting import _scene_curve
 

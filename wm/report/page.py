@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from wm.artifacts.timings import Rows
 from wm.geometry import FloorPlan
 from wm.metric_table import METRICS, Metric
 from wm.report.floorplan import CAMERA_COLOURS, draw_floorplan
@@ -12,7 +13,6 @@ from wm.report.paper import paper_figure
 from wm.report.pictures import DEPTH_ERROR_RANGE, data_uri, depth_error_image, media_uri
 from wm.report.plots import plot_error_against_time, plot_stages
 from wm.report.templating import fill
-from wm.timings import Rows
 from wm.types import SceneObject, View
 
 THUMBNAIL = 400

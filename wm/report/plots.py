@@ -10,8 +10,8 @@ matplotlib.use("Agg")
 
 from matplotlib.figure import Figure
 
+from wm.artifacts.timings import Rows
 from wm.metric_table import METRICS
-from wm.timings import Rows
 
 CURVES = {"psnr": "linear", "m_mae": "log", "n_ang_deg": "linear"}
 """Metrics that are drawn against the time of the fit, with the scale of their axes."""

@@ -7,6 +7,7 @@
     similarity    ssim, with a hand-written derivative
     metrics       psnr, depth_error, normal_error: errors against the truth and the scaffold
     reprojection  reprojection_error: consistency of depth between views
+    image_checks  what is wrong with an image that is to be measured
     ply           load_ply, save_ply, splat_render_mode, save_point_cloud: files of ours and of other programs
 """
 

@@ -11,4 +11,9 @@
     evaluation      evaluate: the metrics, measured on held-out views
     reporting       report: metrics.json, the fly-through and report.html
     ordered         in_order: a parallel map over threads that yields its results in order
+    hearing         hear: what the backends make of the theme's words, and `theme.json`
+    edits           files that a user has changed by hand are used, and never overwritten without a copy
+    arranged        the rows of an edited `objects.json` applied to the objects of a run
+    history         the error curve of the fit as a file
+    progress        a bar on a terminal, plain lines elsewhere
 """

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from wm import console
-from wm.digests import digest, json_text
+from wm.artifacts.digests import digest, json_text
 from wm.splat.optimization.curve import HELDOUT
 
 HISTORY = "stages/history.json"

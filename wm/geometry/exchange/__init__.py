@@ -6,4 +6,5 @@
     vertex_color  colours given at vertices, as slots or as a texture
     trimeshes     object_to_trimesh
     mesh_error    MeshError: a file that holds no usable object
+    plan_objects  the furniture that a plan lists itself, as objects of the scene
 """

@@ -17,4 +17,5 @@
     room_arrangement  RoomArrangement: one room while it is being furnished
     layout            where one more piece may stand
     floor             what a piece leaves of the floor, and what it closes off
+    wishes            what a theme asks of some kinds of furniture, done to a furnished room
 """

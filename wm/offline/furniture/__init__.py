@@ -21,6 +21,24 @@
     sculpture  statues, columns, armour, globes
     tabletop   small things for surfaces
     clockwork  gear trains, orrery, pipes
+    bathing    pool, sauna, fish tank, boiler
+    cabinets   filing cabinet, lockers, server rack, display case, safe, arcade machine
+    ceremony   pew and throne
+    childhood  cot, changing table, toy box, play mat, rocking horse, bunk bed
+    cinema     rows of folding seats, and the screen
+    clinic     hospital bed, examination table, drip stand, barber chair
+    games      billiard table, table tennis table, dartboard
+    garage     car, bicycle, tyres, workbench, anvil
+    gym        treadmill, exercise bike, weight bench, dumbbell rack, punching bag, yoga mat
+    hallway    coat rack and umbrella stand
+    counters    bar with stools, shop counter with a till, counter of cakes
+    joinery    parts of equipment: posts, wheels, boards, jars, bottles, boxes
+    laundry    washing machine, ironing board, drying rack
+    music      upright piano, drum kit, music stand
+    outdoors   deck chair, railing planter, potting bench, fountain
+    school     pupil desk, blackboard, easel, lab bench, telescope
+    shelving   open shelves with what is kept on them
+    stable     horse stall, hay bale, trough, barrel
 """
 
 from wm.offline.furniture.catalog import EQUIPMENT, KINDS, make_piece

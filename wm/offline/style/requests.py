@@ -7,7 +7,7 @@ from wm.offline.style.finish import Finish, Rgb, Style, Surfaces, Wish
 from wm.offline.style.reading import Request, ThemeReading
 from wm.offline.style.style_sheet import TILES, mix_rgb, rgb, scaled_rgb
 from wm.offline.style.vocabulary.materials import MATERIAL_WORDS, MaterialWord
-from wm.offline.style.vocabulary.targets import SOFT, TARGETS, WOODEN, Target
+from wm.offline.style.vocabulary.targets import SOFT, TARGETS, WOODEN, WordTarget
 
 WET = ("bathroom", "kitchen")
 """Room types that keep the materials of their tiles, though not their colours."""
@@ -53,7 +53,7 @@ def _with_wish(style: Style, wish: Wish) -> Style:
     return dataclasses.replace(style, wishes=(*style.wishes, wish))
 
 
-def _wish(target: Target, request: Request, material: MaterialWord | None) -> Wish:
+def _wish(target: WordTarget, request: Request, material: MaterialWord | None) -> Wish:
     color = rgb(request.color) if request.color else rgb(material.codes[0]) if material else None
     return Wish(kinds=target.kinds, slots=target.slots, slot=material.slot if material else "", color=color)
 
@@ -89,7 +89,7 @@ def _has_color(finish: Finish, color: Rgb) -> bool:
     return sum((a - b) ** 2 for a, b in zip(finish.colors[0], color)) ** 0.5 < NEAR
 
 
-def _with_slots(style: Style, target: Target, request: Request, material: MaterialWord | None) -> Style:
+def _with_slots(style: Style, target: WordTarget, request: Request, material: MaterialWord | None) -> Style:
     """Slots of all furniture in a colour or a material; "red lanterns" also tint what the lamps give."""
     if material and request.target == "wood" and request.material != "wood":
         colors = {

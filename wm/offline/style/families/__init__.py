@@ -5,6 +5,10 @@
     regional      japanese, moroccan, coastal, rustic
     retro         midcentury, art deco
     imagined      clockwork, cyberpunk, surreal
+    afar          space, ice, the sea and what sails it, caves, treetops
+    eras          decades and movements that the others leave out
+    legends       castles, towers of wizards, houses of sweets and of dolls
+    town          where people are healed, taught, fed and entertained
 """
 
 from wm.offline.style.families.afar import CAVE, DESERT, ICE, SHIP, SPACE, SUBMARINE, TREEHOUSE, UNDERWATER

@@ -6,6 +6,7 @@
     level        floors and ceilings
     reveal       jambs, heads and thresholds
     window       panes
+    outlook      what is seen through them
 """
 
 from wm.geometry.plan.site import WallOpening

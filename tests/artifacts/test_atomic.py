@@ -5,8 +5,8 @@ import os
 
 import pytest
 
-from wm import atomic
-from wm.atomic import TEMPORARY, discard_unfinished, is_temporary, write_atomically
+from wm.artifacts import atomic
+from wm.artifacts.atomic import TEMPORARY, discard_unfinished, is_temporary, write_atomically
 
 
 def test_a_folder_of_that_name_is_said_and_stays(tmp_path):

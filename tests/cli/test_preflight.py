@@ -6,9 +6,9 @@ import pytest
 from hydra.core.global_hydra import GlobalHydra
 from hydra.core.hydra_config import HydraConfig
 
+from wm.cli.preflight import planned_runs
 from wm.errors import InputError
 from wm.geometry import PlanError
-from wm.preflight import planned_runs
 from wm.validate import ConfigError
 
 

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wm.artifacts import ArtifactError, content_digest, open_run_folder
-from wm.manifest import differences, read_manifest
-from wm.neighbours import Neighbours
+from wm.artifacts.manifest import differences, read_manifest
+from wm.artifacts.neighbours import Neighbours
 
 HEADER = {"seed": 0}
 PRECIOUS = b"precious"

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from wm import run
-from wm.signals import ending
+from wm.cli.signals import ending
 
 LOST = """
 import gc, os, signal, sys

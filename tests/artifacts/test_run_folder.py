@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wm.artifacts import ArtifactError, digest, identity, open_run_folder, write_atomically
-from wm.atomic import TEMPORARY
+from wm.artifacts.atomic import TEMPORARY
 from wm.offline.image.painter import Settings as ImageSettings
 from wm.schema import ReportConfig, RunConfig
 

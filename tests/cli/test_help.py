@@ -9,8 +9,8 @@ import pytest
 
 import wm
 from tests.test_conf import leaves
-from wm.composition import CONF
-from wm.help import answer, asks_for_help
+from wm.cli.composition import CONF
+from wm.cli.help import answer, asks_for_help
 from wm.run import load_config
 from wm.validate import ConfigError
 

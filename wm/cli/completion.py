@@ -8,8 +8,8 @@ TAB.
 
 from collections.abc import Iterator, Sequence
 
-from wm.command_line import FLAGS, OWN_ANSWERS
-from wm.keys import Choices, Section
+from wm.cli.command_line import FLAGS, OWN_ANSWERS
+from wm.cli.keys import Choices, Section
 from wm.validate import ConfigError
 
 _SCRIPT = """\

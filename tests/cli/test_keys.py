@@ -5,8 +5,8 @@ import dataclasses
 import pytest
 
 from tests.test_conf import CHOICES, leaves
-from wm.composition import CONF
-from wm.keys import choices_of, default_choices, sections_of
+from wm.cli.composition import CONF
+from wm.cli.keys import choices_of, default_choices, sections_of
 from wm.run import load_config, options
 from wm.synth.registry import backend_module
 

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from wm.artifacts import open_run_folder
-from wm.neighbours import Neighbours
+from wm.artifacts.neighbours import Neighbours
 
 HEADER = {"seed": 0}
 

@@ -72,7 +72,7 @@ HYDRA_FLAGS: Mapping[str, tuple[str, ...] | None] = {
 
 _MODES = ("--run", "-r", "--multirun", "-m", "--cfg", "-c", "--info", "-i", "--shell-completion", "-sc")
 OWN_ANSWERS = ("--help", "-h", "--version", "--completion")
-"""Flags that are answered without a run (wm.help)."""
+"""Flags that are answered without a run (wm.cli.help)."""
 
 
 def translated(arguments: Sequence[str]) -> list[str]:

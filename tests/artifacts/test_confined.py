@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.confined import confined, is_plain
+from wm.artifacts.confined import confined, is_plain
 from wm.errors import ArtifactError
 
 OUT = ("", ".", "..", "/etc/passwd", "../x", "a/../../x", "a//b", "a/", "./a", "C:x", "a\\b", "a\0b", "a\nb", 300 * "a")

@@ -10,11 +10,11 @@ import pathlib
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from wm.atomic import write_atomically
-from wm.confined import confined
-from wm.digests import content_digest
+from wm.artifacts.atomic import write_atomically
+from wm.artifacts.confined import confined
+from wm.artifacts.digests import content_digest
+from wm.artifacts.manifest import ManifestDamage, read_manifest
 from wm.errors import ArtifactError
-from wm.manifest import ManifestDamage, read_manifest
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -10,8 +10,8 @@ import json
 import pathlib
 from typing import Any
 
-from wm.atomic import is_temporary
-from wm.confined import confined, is_plain
+from wm.artifacts.atomic import is_temporary
+from wm.artifacts.confined import confined, is_plain
 
 MANIFEST = "manifest.json"
 LOCK = ".lock"

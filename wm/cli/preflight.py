@@ -21,7 +21,7 @@ from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.types import RunMode
 from omegaconf import OmegaConf, open_dict, read_write
 
-from wm.composition import CONF, freeze, refused
+from wm.cli.composition import CONF, freeze, refused
 from wm.schema import RunConfig
 from wm.validate import ConfigError
 

@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from omegaconf import OmegaConf
 
-from wm.command_line import FLAGS, HYDRA_FLAGS, OWN_ANSWERS, literal, quoted, scene_name, translated
+from wm.cli.command_line import FLAGS, HYDRA_FLAGS, OWN_ANSWERS, literal, quoted, scene_name, translated
 from wm.run import load_config
 from wm.validate import ConfigError
 

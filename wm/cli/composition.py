@@ -22,7 +22,7 @@ from hydra.plugins.config_source import ConfigResult
 from omegaconf import DictConfig, OmegaConf, open_dict
 from omegaconf.errors import InterpolationToMissingValueError, MissingMandatoryValue, OmegaConfBaseException
 
-from wm.command_line import quoted, scene_name, translated
+from wm.cli.command_line import quoted, scene_name, translated
 from wm.environment import EnvironmentText, environment_values, masked
 from wm.errors import InputError
 from wm.schema import RunConfig
@@ -31,7 +31,7 @@ from wm.validate import ConfigError, validate_config
 LINES = 12
 """Of a message of many lines, such as all violations of a plan, so many are said."""
 
-_PACKAGE = Path(__file__).resolve().parent
+_PACKAGE = Path(__file__).resolve().parents[1]
 CONF = next(folder for folder in (_PACKAGE / "conf", _PACKAGE.parent / "conf") if (folder / "config.yaml").is_file())
 """The configuration tree: inside the package in a wheel, beside it in a checkout. (What lies beside a wheel is not ours.)"""
 
@@ -98,7 +98,7 @@ def load_config(overrides: Sequence[str] = (), *, config_dir: Path | str | None 
     """What `wm` would run with these arguments, e.g. `load_config(["gothic", "seed=3"])` or `load_config(["+scene=gothic"])`.
 
     Args:
-      overrides: what stands after `wm`; wm.command_line says what may be typed.
+      overrides: what stands after `wm`; wm.cli.command_line says what may be typed.
       config_dir: a folder with further YAML files, as `--config-dir` names one.
 
     Raises:

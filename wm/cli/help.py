@@ -5,7 +5,7 @@
     wm --help image=like_closed  the keys of a backend that is not the default
     wm --completion bash         the script that completes names, flags and keys at TAB
 
-It loads nothing heavy (wm.keys).
+It loads nothing heavy (wm.cli.keys).
 """
 
 import dataclasses
@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import Any
 
 import wm
-from wm.command_line import FLAGS, OWN_ANSWERS
-from wm.completion import completion
-from wm.keys import Choices, Section, choices_of, default_choices, sections_of
+from wm.cli.command_line import FLAGS, OWN_ANSWERS
+from wm.cli.completion import completion
+from wm.cli.keys import Choices, Section, choices_of, default_choices, sections_of
 from wm.validate import ConfigError
 
 _COLUMN = 34

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from wm.timings import UNKNOWN, read_rows
+from wm.artifacts.timings import UNKNOWN, read_rows
 
 ROW = {"seconds": 2.5, "peak_gib": 1.0}
 

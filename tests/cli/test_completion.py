@@ -5,8 +5,8 @@ import subprocess
 
 import pytest
 
-from wm.composition import CONF
-from wm.help import answer
+from wm.cli.composition import CONF
+from wm.cli.help import answer
 
 BASH = shutil.which("bash")
 

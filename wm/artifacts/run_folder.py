@@ -12,17 +12,13 @@ import pathlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, BinaryIO
 
-from wm.atomic import Writer, is_temporary
-from wm.atomic import write_atomically as write_atomically
-from wm.confined import confined
+from wm.artifacts.atomic import Writer, is_temporary, write_atomically
+from wm.artifacts.confined import confined
+from wm.artifacts.digests import file_digest, json_text
+from wm.artifacts.manifest import LOCK, MANIFEST, Manifest, ManifestDamage, differences, read_manifest
+from wm.artifacts.timings import TIMINGS, read_rows
 from wm.console import say as to_console
-from wm.digests import content_digest as content_digest
-from wm.digests import digest as digest
-from wm.digests import file_digest, json_text
-from wm.digests import identity as identity
-from wm.errors import ArtifactError as ArtifactError
-from wm.manifest import LOCK, MANIFEST, Manifest, ManifestDamage, differences, read_manifest
-from wm.timings import TIMINGS, read_rows
+from wm.errors import ArtifactError
 
 try:
     import fcntl
@@ -206,7 +202,7 @@ def open_run_folder(
       header: what identifies the run (configuration, seed, versions): JSON-like.
       overwrite: accept a folder that another configuration made; entries whose keys still fit are reused.
       say: called with one line when something is found damaged.
-      lend: asked for entries that the folder does not have (`wm.neighbours`); None: every entry is made here.
+      lend: asked for entries that the folder does not have (`wm.artifacts.neighbours`); None: every entry is made here.
 
     Raises:
       ArtifactError: another process uses the folder, or it holds another configuration's run.
