@@ -18,6 +18,10 @@ BESIDE: dict[str, Any] = {"identity": False}
 """Metadata of a field that changes no stage's result: runs that differ in it alone are the same run."""
 
 
+LONGEST_ROOM_NAME = 200
+"""Characters of a room's name: in a programme, in a plan, and in what a language model answers."""
+
+
 @dataclass(kw_only=True, unsafe_hash=True)
 class SceneConfig:
     """What is wanted, in words: conf/scene/*.yaml."""

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from wm.bounds import outside
 from wm.errors import InputError
-from wm.schema import RunConfig
+from wm.schema import LONGEST_ROOM_NAME, RunConfig
 
 
 class ConfigError(InputError):
@@ -45,8 +45,8 @@ def _scene_problems(config: RunConfig) -> Iterator[str]:
     if not scene.rooms and config.plan.file is None:
         yield 'scene.rooms=[]: name at least one room (--rooms "hall, kitchen"), or give a plan.file'
     for room in scene.rooms:
-        if not room.strip() or not room.isprintable() or len(room) > 200:
-            yield f"scene.rooms has {room!r}: a room's name has 1 to 200 printable characters"
+        if not room.strip() or not room.isprintable() or len(room) > LONGEST_ROOM_NAME:
+            yield f"scene.rooms has {room!r}: a room's name has 1 to {LONGEST_ROOM_NAME} printable characters"
 
 
 def _values_not_allowed(config: RunConfig) -> Iterator[str]:

@@ -9,11 +9,11 @@ import time
 from collections import Counter
 
 from wm.geometry.plan.loading import FloorPlan, PlanError, read_plan
+from wm.schema import LONGEST_ROOM_NAME
 from wm.synth.backends import LanguageBackend
 from wm.synth.plan_text import plan_document
 from wm.synth.room_names import CONNECTING, room_sort
 
-_LONGEST_NAME = 200  # as in wm.geometry.plan.loading
 _SHOWN = 12  # violations in an error message
 
 
@@ -64,8 +64,8 @@ def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed
     if not rooms:
         raise ValueError("the room programme is empty; name at least one room")
     for room in rooms:
-        if not room.strip() or not room.isprintable() or len(room) > _LONGEST_NAME:
-            raise ValueError(f"the room programme names {room!r}; a name has 1 to {_LONGEST_NAME} printable characters")
+        if not room.strip() or not room.isprintable() or len(room) > LONGEST_ROOM_NAME:
+            raise ValueError(f"the room programme names {room!r}; a name has 1 to {LONGEST_ROOM_NAME} printable characters")
     transcript: list[Attempt] = []
     previous, violations = None, []
     for _ in range(max(max_iterations, 1)):

@@ -11,6 +11,7 @@ import numpy as np
 from wm.geometry.plan.object_json import object_json, read_objects
 from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, PlanObject, Room, Violation
 from wm.geometry.plan.units import METRES, OPENINGS, metres_per, opening_kind, unread
+from wm.schema import LONGEST_ROOM_NAME
 
 MAX_BYTES = 8 * 2**20
 MAX_ROOMS = 2048
@@ -159,8 +160,9 @@ class Reader:
             )
         self._note_unread(value, "room", f"room {name}")
         title = _given(value, "name", room_id)
-        if not isinstance(title, str) or len(title) > 200 or not title.isprintable():
-            self._fault(name, "type", f"'name' is {_show(title)}; it must be one line of at most 200 printable characters")
+        if not isinstance(title, str) or len(title) > LONGEST_ROOM_NAME or not title.isprintable():
+            wanted = f"one line of at most {LONGEST_ROOM_NAME} printable characters"
+            self._fault(name, "type", f"'name' is {_show(title)}; it must be {wanted}")
             title = name
         height = self._number(name, value, "ceiling_height", ceiling, *CEILING)
         polygon = self._points(name, value.get("floor_polygon"), "floor_polygon", 3, MAX_POINTS)
