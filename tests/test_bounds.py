@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.artifacts import identity
+from wm.artifacts.digests import identity
 from wm.bounds import Bounds, check_settings, choice, number, setting
 from wm.run import load_config
 from wm.schema import BESIDE, RunConfig

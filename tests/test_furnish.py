@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from wm.artifacts import open_run_folder
+from wm.artifacts.run_folder import open_run_folder
 from wm.geometry.mesh.glb import object_nodes
 from wm.meter import StageMeter
 from wm.run import load_config

@@ -7,7 +7,8 @@ import pytest
 
 from tests.synth.recording import recorded, with_recording
 from wm import pipeline
-from wm.artifacts import ArtifactError, RunFolder, open_run_folder
+from wm.artifacts.run_folder import RunFolder, open_run_folder
+from wm.errors import ArtifactError
 from wm.geometry import PlanError
 from wm.meter import StageMeter
 from wm.metric_table import METRICS

@@ -12,9 +12,11 @@ from collections.abc import Iterable, Sequence
 from tabulate import tabulate
 
 from wm import console
-from wm.artifacts import file_digest, identity, json_text, open_run_folder, write_atomically
+from wm.artifacts.atomic import write_atomically
 from wm.artifacts.confined import confined
+from wm.artifacts.digests import file_digest, identity, json_text
 from wm.artifacts.neighbours import Neighbours
+from wm.artifacts.run_folder import open_run_folder
 from wm.artifacts.timings import TIMINGS, UNKNOWN, Rows, read_rows
 from wm.environment import shown_identity
 from wm.errors import ArtifactError
@@ -135,7 +137,7 @@ def _read_timings(folder: pathlib.Path) -> Rows | None:
 
 def _earlier_times(folder: pathlib.Path, entries: Iterable[str]) -> Rows:
     """The rows of what is in the folder; UNKNOWN for finished stages if their times are lost, which is said."""
-    rows, finished = _read_timings(folder), {_STAGE_OF.get(name, name) for name in entries}
+    rows, finished = _read_timings(folder), {_STAGE_OF.get(name, name) for name in entries} & set(STAGES)
     lost = finished if rows is None else {name for name, row in rows.items() if row == UNKNOWN}
     rows = rows or {}
     if lost:

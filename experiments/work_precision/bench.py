@@ -56,7 +56,7 @@ class Room:
 
 def furnished_room(folder: pathlib.Path, *, tiny: bool) -> Room:
     """The room, made up to its painted and held-out views, or read from `folder` where that was done before."""
-    from wm.artifacts import open_run_folder
+    from wm.artifacts.run_folder import open_run_folder
     from wm.geometry import cast
     from wm.meter import StageMeter
     from wm.run import load_config

@@ -9,9 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.artifacts import ArtifactError, content_digest, open_run_folder
+from wm.artifacts.digests import content_digest
 from wm.artifacts.manifest import differences, read_manifest
 from wm.artifacts.neighbours import Neighbours
+from wm.artifacts.run_folder import open_run_folder
+from wm.errors import ArtifactError
 
 HEADER = {"seed": 0}
 PRECIOUS = b"precious"

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from wm.artifacts import open_run_folder
 from wm.artifacts.neighbours import Neighbours
+from wm.artifacts.run_folder import open_run_folder
 
 HEADER = {"seed": 0}
 

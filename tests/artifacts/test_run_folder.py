@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wm.artifacts import ArtifactError, digest, identity, open_run_folder, write_atomically
-from wm.artifacts.atomic import TEMPORARY
+from wm.artifacts.atomic import TEMPORARY, write_atomically
+from wm.artifacts.digests import digest, identity
+from wm.artifacts.run_folder import open_run_folder
+from wm.errors import ArtifactError
 from wm.offline.image.painter import Settings as ImageSettings
 from wm.schema import ReportConfig, RunConfig
 

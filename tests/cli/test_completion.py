@@ -32,7 +32,7 @@ def offered(line: str, breaks: str = "=:") -> list[str]:
         ("wm --the", ["--theme"]),
         ("wm --theme ", []),
         ("wm --plan my", []),
-        ("wm gothic fi", ["fit."]),
+        ("wm gothic fi", ["finish.", "fit."]),
         ("wm gothic fit.ste", ["fit.steps="]),
         ("wm gothic fit.init=f", ["flat"]),
         ("wm gothic report.video=", ["true", "false"]),

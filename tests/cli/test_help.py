@@ -39,7 +39,7 @@ def test_help_names_every_key_with_its_meaning_its_default_and_its_range():
         ("fit.steps", "fit.steps=120 Optimiser steps per room.", "fit.batch"),
         ("seed", "seed=0 Seed of everything random.", "variant"),
         ("--seed", "seed=0 Seed of everything random.", "variant"),
-        ("variant", 'depth_only "depth only": the bare structure', "fit.steps"),
+        ("variant", 'depth_only "depth only": the condition shows the empty structure', "fit.steps"),
         ("gothic", "scene=gothic name: gothic theme: gothic revival mansion", "beach_house"),
         ("image=like_closed", "image.drift=0.03", "depth.noise"),
         ("image.drift", "image.drift=0.02", "image.closed"),

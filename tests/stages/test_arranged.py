@@ -7,9 +7,10 @@ import pytest
 
 from tests.geometry.plans import two_rooms
 from tests.geometry.things import box
-from wm.artifacts import json_text
+from wm.artifacts.digests import json_text
 from wm.codecs import object_summary
-from wm.stages.arranged import ArrangementError, arranged, with_ids
+from wm.stages.arranged import ArrangementError, arranged
+from wm.synth.object_ids import with_ids
 
 PLAN = two_rooms()
 ROOMS = [room.id for room in PLAN.rooms]

@@ -4,7 +4,7 @@ import importlib.metadata
 
 import pytest
 
-from wm.artifacts import RunFolder
+from wm.artifacts.run_folder import RunFolder
 from wm.meter import StageMeter
 from wm.schema import FitSettings, RunConfig
 from wm.stages import run_context as module

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial import KDTree
 
 from tests.test_pipeline import SMALL
-from wm.artifacts import open_run_folder
+from wm.artifacts.run_folder import open_run_folder
 from wm.geometry import cast, unproject_depth
 from wm.geometry.cameras.exposed_surface import room_surface
 from wm.meter import StageMeter

@@ -2,17 +2,16 @@
 
 import jax
 import pytest
-import shapely
 
 from tests.test_pipeline import SMALL
-from wm.artifacts import open_run_folder
+from wm.artifacts.run_folder import open_run_folder
 from wm.meter import StageMeter
 from wm.run import load_config
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.step import view_gradient
 from wm.stages.run_context import RunContext
 from wm.stages.scene import build_scene
-from wm.stages.warm_up import contenders, warm_up
+from wm.stages.warm_up import _cloud, contenders, warm_up
 
 
 @pytest.fixture(scope="module")
@@ -35,6 +34,6 @@ def test_it_takes_one_step_and_one_render_and_sets_the_capacity(made):
 def test_contenders_are_painted_rooms_and_the_largest_is_among_them(made):
     context, scene = made
     rooms = contenders(scene, context.config.fit)
-    areas = [shapely.Polygon(room.polygon).area for room in scene.plan.rooms]
+    sizes = {room: len(_cloud(scene, room, context.config).opacity_logits) for room in range(len(scene.rooms))}
     assert rooms and set(rooms) <= {view.room for view in scene.views}
-    assert areas.index(max(areas)) in rooms
+    assert max(sizes, key=lambda room: sizes[room]) in rooms

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.synth.recording import recorded, with_recording
-from wm.artifacts import open_run_folder
+from wm.artifacts.run_folder import open_run_folder
 from wm.codecs import encode_objects
 from wm.geometry import plan_to_json
 from wm.meter import StageMeter

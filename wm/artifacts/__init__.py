@@ -8,20 +8,3 @@
     atomic      files that are written whole or not at all
     timings     time and peak memory of stages, as `timings.json` holds them
 """
-
-from wm.artifacts.atomic import write_atomically
-from wm.artifacts.digests import content_digest, digest, file_digest, identity, json_text
-from wm.artifacts.run_folder import RunFolder, open_run_folder
-from wm.errors import ArtifactError
-
-__all__ = [
-    "ArtifactError",
-    "RunFolder",
-    "content_digest",
-    "digest",
-    "file_digest",
-    "identity",
-    "json_text",
-    "open_run_folder",
-    "write_atomically",
-]

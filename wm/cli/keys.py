@@ -13,6 +13,7 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Any
 
+from wm import schema
 from wm.bounds import choice, number, setting
 from wm.schema import BackendSettings, RunConfig
 
@@ -88,13 +89,19 @@ def _declared(path: str) -> tuple[str, dict[str, dataclasses.Field[Any]]]:
     try:
         tree = ast.parse(_source(path))
         settings = next(node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == "Settings")
-        title, keys = ast.get_docstring(settings), dict(_literal_fields(settings))
+        title, keys = ast.get_docstring(settings), _inherited(settings) | dict(_literal_fields(settings))
     except (OSError, SyntaxError, ValueError, TypeError, KeyError, AttributeError, StopIteration):
         from wm.synth.registry import backend_module  # here: it loads JAX
 
         record = backend_module(path).Settings
         title, keys = record.__doc__, {field.name: field for field in dataclasses.fields(record)}
     return (title or "").partition("\n")[0].rstrip("."), {name: field for name, field in keys.items() if name != "backend"}
+
+
+def _inherited(settings: ast.ClassDef) -> dict[str, dataclasses.Field[Any]]:
+    """The fields that a record of settings has from the record of wm.schema that it extends. Raises: AttributeError, KeyError."""
+    (base,) = settings.bases
+    return {field.name: field for field in dataclasses.fields(vars(schema)[ast.unparse(base).rpartition(".")[2]])}
 
 
 def _source(path: str) -> str:

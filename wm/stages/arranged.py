@@ -7,7 +7,6 @@ the run wrote moves, turns, stretches or renames its object. Rows that were left
 import dataclasses
 import json
 import math
-import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -29,23 +28,6 @@ _LARGEST = 50.0
 
 class ArrangementError(InputError):
     """An objects.json that cannot be used; the message names file, row and what would be right."""
-
-
-def with_ids(objects: Sequence[SceneObject], rooms: Sequence[str]) -> tuple[SceneObject, ...]:
-    """The objects named by room, label and a number that counts within the room: `library-floor_lamp-2`.
-
-    Ids hold only letters, digits, `_` and `-`, which every viewer keeps, and those of one room do not depend on the others.
-    """
-    taken: set[str] = set()
-    named = []
-    for thing in objects:
-        stem = f"{rooms[thing.room]}-{re.sub(r'[^a-z0-9]+', '_', thing.label.lower()).strip('_') or 'object'}"
-        k = 1
-        while f"{stem}-{k}" in taken:
-            k += 1
-        taken.add(f"{stem}-{k}")
-        named.append(dataclasses.replace(thing, id=f"{stem}-{k}"))
-    return tuple(named)
 
 
 def is_json(data: bytes) -> bool:

@@ -9,7 +9,7 @@ configuration makes the file anew, or it cannot be read, it is first copied besi
 import shutil
 
 from wm import console
-from wm.artifacts import content_digest, file_digest
+from wm.artifacts.digests import content_digest, file_digest
 from wm.stages.run_context import RunContext
 
 _EDITED = "edited-"

@@ -8,7 +8,7 @@ import jax
 import numpy as np
 
 from wm import codecs
-from wm.artifacts import json_text
+from wm.artifacts.digests import json_text
 from wm.geometry import cast, coverage, navigability, visible_rooms
 from wm.geometry.rays.pinhole import scale_camera
 from wm.metric_table import read_metrics

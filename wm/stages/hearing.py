@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from wm.artifacts import json_text
+from wm.artifacts.digests import json_text
 from wm.stages.run_context import RunContext
 from wm.synth.backends import HeardTheme
 from wm.synth.registry import heard_theme

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from wm import codecs, console
-from wm.artifacts import json_text
+from wm.artifacts.digests import json_text
 from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, object_boxes
 from wm.geometry.mesh.glb import object_nodes, save_glb
 from wm.geometry.plan.site import room_site

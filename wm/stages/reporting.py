@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from wm.artifacts import json_text
+from wm.artifacts.digests import json_text
 from wm.codecs import to_bytes
 from wm.environment import shown
 from wm.geometry import cast, walkthrough

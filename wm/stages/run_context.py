@@ -8,7 +8,8 @@ from contextlib import contextmanager
 from typing import Any
 
 import wm
-from wm.artifacts import RunFolder, digest
+from wm.artifacts.digests import digest
+from wm.artifacts.run_folder import RunFolder
 from wm.meter import StageMeter
 from wm.schema import STAGES, RunConfig
 from wm.stages.progress import Progress, progress

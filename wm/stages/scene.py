@@ -5,7 +5,8 @@ import json
 import pathlib
 
 from wm import codecs, console
-from wm.artifacts import file_digest, json_text, write_atomically
+from wm.artifacts.atomic import write_atomically
+from wm.artifacts.digests import file_digest, json_text
 from wm.geometry import (
     FloorPlan,
     RayScene,
@@ -19,11 +20,12 @@ from wm.geometry import (
 from wm.geometry.plan.loading import read_plan_file
 from wm.schema import ObjectsSettings, RunConfig
 from wm.stages import edits
-from wm.stages.arranged import ArrangementError, arranged, is_json, with_ids
+from wm.stages.arranged import ArrangementError, arranged, is_json
 from wm.stages.hearing import hear
 from wm.stages.run_context import RunContext
 from wm.synth.backends import SceneContext
 from wm.synth.furnished import Furnisher, bare_context, make_furnisher
+from wm.synth.object_ids import with_ids
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
 from wm.synth.room_names import unknown_rooms

@@ -17,6 +17,7 @@
     agreement   the pixels at which an image that failed may still be used
     attempt     paint_view: one view generated, verified, and tried again
     painting    the loop over views: condition, generate, verify, project into the atlas
+    object_ids  with_ids: one id an object, by its room and label
     plan_text   the floor plan in a language model's answer, whatever is wrapped around it
     seeds       the seed that each part of a scene draws from, and the number of a room
 """

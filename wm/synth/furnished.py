@@ -10,6 +10,7 @@ from wm.geometry import FloorPlan, build_structure, load_plan
 from wm.geometry.exchange.plan_objects import plan_objects
 from wm.schema import RunConfig
 from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext
+from wm.synth.object_ids import with_ids
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, close_backend, make_backend, model_settings
 from wm.synth.seeds import PARTS, seed_of
@@ -66,10 +67,8 @@ def furnished_context(config: RunConfig) -> SceneContext:
     """
     plan = _plan(config)
     bare = bare_context(config, plan)
-    if not config.furnish.enabled:
-        return bare
-    objects = make_furnisher(config, bare).furnish(bare)
-    return dataclasses.replace(bare, objects=tuple(objects))
+    objects = make_furnisher(config, bare).furnish(bare) if config.furnish.enabled else bare.objects
+    return dataclasses.replace(bare, objects=with_ids(objects, [room.id for room in plan.rooms]))
 
 
 def _plan(config: RunConfig) -> FloorPlan:

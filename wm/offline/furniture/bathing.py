@@ -27,8 +27,8 @@ def pool(style: Style, rng: np.random.Generator, size: Size) -> Model:
         x = s * 0.26
         path = [
             (x, -d / 2 + 0.14, h - 0.02),
-            (x, -d / 2 + 0.14, h + 0.28),
-            (x, -d / 2 + rim + 0.08, h + 0.28),
+            (x, -d / 2 + 0.14, h + 0.2),
+            (x, -d / 2 + rim + 0.08, h + 0.2),
             (x, -d / 2 + rim + 0.1, h - 0.12),
         ]
         parts += of("chrome", tube(path, 0.02, 10, smooth=3))

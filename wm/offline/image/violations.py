@@ -124,8 +124,8 @@ def _on_top(objects: tuple[SceneObject, ...], below: int) -> list[int]:
 
     def stands(thing: SceneObject) -> bool:
         foot = thing.T_world_object[:3, 3]
-        inside = bool((foot[:2] > low[:2]).all() and (foot[:2] < high[:2]).all())
-        return thing.support == "object" and thing.room == base.room and inside and foot[2] > low[2] + 0.1
+        inside = (foot[:2] > low[:2]).all() and (foot[:2] < high[:2]).all()
+        return thing.support == "object" and thing.room == base.room and bool(inside and foot[2] > low[2] + 0.1)
 
     return [k for k, thing in enumerate(objects) if k != below and stands(thing)]
 
