@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import sys
 
 import jax
 import numpy as np
@@ -50,6 +51,7 @@ def test_a_model_of_one_s_own_is_selected_as_the_readme_says(tmp_path, monkeypat
     (tmp_path / "lab_conf/image").mkdir(parents=True)
     (tmp_path / "lab_conf/image/lab.yaml").write_text(f"{line}\n")
     monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "lab_image", raising=False)
     (command,) = re.findall(r"^python -m wm\.run --config-dir lab_conf (.+)$", README.read_text(), flags=re.MULTILINE)
     config = load_config(command.split(), config_dir=tmp_path / "lab_conf")
     assert config.image.strength == 0.5 and not config.verify.enabled

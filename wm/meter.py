@@ -45,7 +45,8 @@ class StageMeter:
         def rows() -> Rows:
             if not made():
                 return self.stages
-            row: Row = {"seconds": time.perf_counter() - started, "peak_gib": max(peak[0], resident_gib())}
+            peak[0] = max(peak[0], resident_gib())  # kept, so that no later row has less
+            row: Row = {"seconds": time.perf_counter() - started, "peak_gib": peak[0]}
             return self.stages | {name: _together(self._known(name), row)}
 
         def watch() -> None:

@@ -102,7 +102,7 @@ def switched(name, value):
         jax.config.update(name, before)
 
 
-@pytest.mark.parametrize("planner", ["host", "traced"])
+@pytest.mark.parametrize("planner", ["host", pytest.param("traced", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("switch", "value"), [("jax_numpy_rank_promotion", "raise"), ("jax_numpy_dtype_promotion", "strict")])
 def test_it_promotes_neither_ranks_nor_types(switch, value, planner):
     gaussians, view = float32(cloud(degree=1)), jax.tree.map(lambda x: np.asarray(x, np.float32), camera())

@@ -17,6 +17,7 @@ from wm.geometry.plan.records import Room
 
 SNAP = 0.025  # metres: 0.3 degrees over a wall of 4.8 m
 EXACT = 1e-6  # metres within which points are one, as `Reader` takes them to be
+_AT_A_CORNER = 16  # rooms that may meet at one place
 _PASSES = 3  # a corner that moves may come near another wall
 
 
@@ -31,6 +32,8 @@ def snapped(rooms: Sequence[Room]) -> tuple[tuple[Room, ...], tuple[str, ...]]:
     if len(set(sound)) < 2:
         return tuple(rooms), ()
     before = np.concatenate([rooms[k].polygon for k in sound])
+    if np.unique(before.round(6), axis=0, return_counts=True)[1].max() > _AT_A_CORNER:
+        return tuple(rooms), ()  # a heap of rooms: the rules refuse it before all pairs are looked at
     after = before[_joined(before, owner)]
     parts = np.split(np.arange(len(owner)), np.cumsum(counts)[:-1])
     following = np.concatenate([np.roll(part, -1) for part in parts])
