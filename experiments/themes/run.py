@@ -1,7 +1,7 @@
 """One room in many themes: a contact sheet, and a table of the words that were heard.
 
     python experiments/themes/run.py                     docs/themes.jpg and the table of README.md
-    python experiments/themes/run.py --theme "an igloo"  one picture, /tmp/theme.png by default
+    python experiments/themes/run.py --theme "an igloo"  one picture, theme.png by default
 
 Plan, camera and seed are the same in every picture, so that only the words differ.
 """
@@ -83,7 +83,7 @@ def table(themes: tuple[str, ...]) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--theme", action="append")
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("/tmp/theme.png"))
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("theme.png"))
     parser.add_argument("--plain", action="store_true", help="leave the captions out")
     arguments = parser.parse_args()
     themes = tuple(arguments.theme or THEMES)
