@@ -15,6 +15,7 @@ from wm.cli.signals import ending
 
 LOST = """
 import gc, os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs, and what they start, ignore it otherwise
 import wm.run
 
 def callback(phase, info):
@@ -43,13 +44,15 @@ def test_handlers_are_given_back_and_what_is_ignored_stays_so():
     before = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
     heard = []
     try:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # as under nohup
         with ending(heard.append):
             assert signal.getsignal(signal.SIGTERM) == signal.SIG_IGN
             os.kill(os.getpid(), signal.SIGINT)
         assert heard == [130]
-        assert signal.getsignal(signal.SIGINT) == before[0]
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     finally:
+        signal.signal(signal.SIGINT, before[0])
         signal.signal(signal.SIGTERM, before[1])
 
 
