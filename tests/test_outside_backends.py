@@ -47,6 +47,7 @@ import dataclasses
 import json
 from wm.bounds import number
 from wm.schema import BackendSettings
+from wm.synth.backends import LanguageResult
 
 VERSION = "2026-11"
 
@@ -61,14 +62,14 @@ class LabLanguage:
 
     def propose(self, theme, rooms, *, seed, violations, previous):
         if previous is None:
-            return "Certainly, here is a plan"
+            return LanguageResult("Certainly, here is a plan")
         w = self.width
         corners = lambda k: [[k * w, 0], [k * w + w, 0], [k * w + w, 4], [k * w, 4]]
         door = lambda k: {"type": "door", "wall_segment": [[k * w, 0], [k * w, 4]], "position": 1.5, "width": 0.9, "height": 2.1,
                           "sill_height": 0}
         plan = [{"id": f"room_{k}", "name": name, "floor_polygon": corners(k), "ceiling_height": 2.8,
                  "openings": [door(k)] if k else []} for k, name in enumerate(rooms)]
-        return json.dumps({"metadata": {"units": "meters"}, "rooms": plan, "objects": []})
+        return LanguageResult(json.dumps({"metadata": {"units": "meters"}, "rooms": plan, "objects": []}))
 
 def make(settings, context):
     return LabLanguage(settings)

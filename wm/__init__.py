@@ -19,6 +19,7 @@ Importing `wm` itself loads none of its modules. Each imports only those below i
     numerics      guards, each correct in value and gradient
     validate      whether a configuration can be run
     metric_table  METRICS: the name, unit, format and definition of every metric
+    services      requests to models: kept answers, retries, budget, prices, what a run has paid
     types         records of data that several packages share
     schema        records of settings
     color         sRGB and linear light

@@ -85,7 +85,7 @@ class Scene:
         settings = self.stage.config.verify
         changed = np.abs(depth - self.gbuffer.depth) > settings.tolerance * self.gbuffer.depth
         image = ImageResult(rgb=np.zeros((*depth.shape, 3), np.float32), drawn_depth=depth)
-        estimate = make_backend("depth", self.stage.config.depth).estimate(image, seed=seed)
+        estimate = make_backend("depth", self.stage.config.depth).estimate(image, camera=self.view.camera, seed=seed)
         paper = verify(self.edges, estimate, dataclasses.replace(settings, min_recall=RECALL))
         ours = verify(self.edges, estimate, settings, depth=self.gbuffer.depth)
         return {

@@ -48,13 +48,13 @@ class Recording:
         result = self.inner.generate(request)
         return result if self.draws else ImageResult(rgb=result.rgb)
 
-    def estimate(self, result, *, seed):
+    def estimate(self, result, *, camera, seed):
         self._asked()
-        return self.inner.estimate(result, seed=seed)
+        return self.inner.estimate(result, camera=camera, seed=seed)
 
-    def segment(self, result, *, seed):
+    def segment(self, result, *, where, seed):
         self._asked()
-        return self.inner.segment(result, seed=seed)
+        return self.inner.segment(result, where=where, seed=seed)
 
     def reconstruct(self, label, observations, site, room, *, seed):
         self._asked()

@@ -80,13 +80,13 @@ class Painter:
 class Estimator:
     """What was drawn, up to scale and shift that differ from image to image."""
 
-    def estimate(self, result, *, seed):
+    def estimate(self, result, *, camera, seed):
         scale, shift = np.random.default_rng(seed).uniform(0.1, 5, 2)
         return scale * result.drawn_depth + shift
 
 
 class Blind:
-    def estimate(self, result, *, seed):
+    def estimate(self, result, *, camera, seed):
         return None
 
 
@@ -256,9 +256,9 @@ class Unsure(Estimator):
     calls: tuple[int, ...]
     asked: int = 0
 
-    def estimate(self, result, *, seed):
+    def estimate(self, result, *, camera, seed):
         self.asked += 1
-        return self.untold if self.asked - 1 in self.calls else super().estimate(result, seed=seed)
+        return self.untold if self.asked - 1 in self.calls else super().estimate(result, camera=camera, seed=seed)
 
 
 @pytest.mark.parametrize("untold", [None, np.full((64, 96), np.nan, np.float32)], ids=["none", "nan"])
@@ -309,7 +309,7 @@ def test_what_is_no_image_is_refused(spoil):
 
 def test_what_is_no_estimate_is_refused():
     class Inches(Estimator):
-        def estimate(self, result, *, seed):
+        def estimate(self, result, *, camera, seed):
             return np.round(40 * result.drawn_depth).astype(np.uint16)
 
     with pytest.raises(ValueError, match=r"hall/bootstrap0: the depth backend returned uint16"):

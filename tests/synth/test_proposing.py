@@ -5,6 +5,7 @@ import json
 import pytest
 
 from wm.offline.language.grammar import Settings, make
+from wm.synth.backends import LanguageResult
 from wm.synth.proposing import ProposalError, propose_plan
 
 ROOMS = ["hall", "kitchen"]
@@ -19,11 +20,11 @@ class Scripted:
 
     def propose(self, theme, rooms, *, seed, violations, previous):
         self.asked.append({"seed": seed, "violations": violations, "previous": previous})
-        return self.answers[min(len(self.asked), len(self.answers)) - 1]
+        return LanguageResult(self.answers[min(len(self.asked), len(self.answers)) - 1])
 
 
 def good() -> str:
-    return make(Settings()).propose("a house", ROOMS, seed=3, violations=[], previous=None)
+    return make(Settings()).propose("a house", ROOMS, seed=3, violations=[], previous=None).text
 
 
 def without_doors() -> str:

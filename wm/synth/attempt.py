@@ -5,14 +5,18 @@ If every attempt fails, the best image is kept, and its mask holds the pixels th
 """
 
 import dataclasses
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float, UInt8
 from scipy.ndimage import maximum_filter
 
+from wm import console
 from wm.schema import VerifySettings
+from wm.services.faults import RefusedError
 from wm.synth.agreement import agreement
-from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest
+from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest, ImageResult
 from wm.synth.canny import depth_edges
 from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.verify import Verdict, dilation_radius, verify
@@ -30,6 +34,8 @@ class PaintedView:
     accepted: bool  # whether an image passed; if not, the mask holds the pixels at which the best one agrees
     reference: str | None  # name of the view that served as style reference
     condition: np.ndarray  # [h, w, 3] uint8, what the image model was shown
+    made_by: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    """What made the image: seed and prompt of the attempt, and what the backend tells of itself (`ImageResult.record`)."""
 
 
 def attempt_seed(seed: int, view: int, attempt: int) -> int:
@@ -62,13 +68,18 @@ def paint_view(
     edges = binding_edges(shown, request.condition, settings)
     held = shown.depth if request.condition.objects == "textured" else None
     condition = as_bytes(request.condition.rgb)
+    refusals: list[str] = []
     best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
     for attempt in range(max(settings.max_attempts, 1)):
         request = dataclasses.replace(request, seed=attempt_seed(*identity, attempt))
-        result = image.generate(request)
+        try:
+            result = image.generate(request)
+        except RefusedError as refusal:
+            refusals.append(str(refusal))
+            continue
         rgb = as_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
-        estimate = checked_estimate(depth.estimate(result, seed=request.seed), request.view) if settings.enabled else None
+        estimate = _estimate(depth, result, request) if settings.enabled else None
         verdict = verify(edges, estimate, settings, depth=held)
         painted = PaintedView(
             rgb=rgb,
@@ -78,15 +89,36 @@ def paint_view(
             accepted=verdict.passed,
             reference=reference,
             condition=condition,
+            made_by={"seed": request.seed, "prompt": request.prompt, **result.record},
         )
         if verdict.passed:
             return painted
         near = _nearness(estimate, verdict)
         if best is None or near > best[0]:
             best = (near, painted, estimate)
-    assert best is not None
+    if best is None:
+        return _refused(request, condition, reference, refusals)
     mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
     return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
+
+
+def _estimate(depth: DepthBackend, result: ImageResult, request: ImageRequest) -> np.ndarray | None:
+    return checked_estimate(depth.estimate(result, camera=request.view.camera, seed=request.seed), request.view)
+
+
+def _refused(request: ImageRequest, condition: np.ndarray, reference: str | None, refusals: list[str]) -> PaintedView:
+    """A view of which the model gave no image: what it was shown, none of which may be used. The run goes on without it."""
+    times = f"{len(refusals)} attempts" if len(refusals) > 1 else "the one attempt"
+    console.say(f"view {request.view.name}: the image model refused {times}; the view is left out. The last time: {refusals[-1]}")
+    return PaintedView(
+        rgb=condition,
+        mask=np.zeros(condition.shape[:2], bool),
+        recall=None,
+        attempts=len(refusals),
+        accepted=False,
+        reference=reference,
+        condition=condition,
+    )
 
 
 def _nearness(estimate: np.ndarray | None, verdict: Verdict) -> tuple[bool, float, float]:

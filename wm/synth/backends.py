@@ -6,13 +6,16 @@ backend is selected and how a model of your own is added.
 """
 
 import dataclasses
-from collections.abc import Sequence
+import pathlib
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
 from wm.geometry.plan.site import Site
 from wm.schema import BackendSettings
+from wm.services.records import Quote
+from wm.services.services import Services
 from wm.types import Camera, Mesh, SceneObject, View
 
 
@@ -55,6 +58,9 @@ class ImageRequest:
     view: View
     seed: int
     task: Literal["paint", "furnish"] = "paint"  # draw the scaffold as it is | draw its empty room with furniture
+    theme: str = ""  # what `prompt` was written from, for models that want a prompt of their own: the scene in words,
+    room: str = ""  # the name of the room,
+    sights: tuple[str, ...] = ()  # and the doors and windows in view, such as "a doorway on the left"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -65,6 +71,8 @@ class ImageResult:
     drawn_depth: np.ndarray | None = None  # [h, w] the depth that an offline model drew; None from real models
     drawn_object: np.ndarray | None = None  # [h, w] int32, from offline models: index into drawn_labels, OUTSIDE for structure
     drawn_labels: tuple[str, ...] = ()
+    record: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    """What made the image, as JSON values: model, model_version, response_id, finish_reason, usage (ServiceAnswer.record)."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -73,6 +81,25 @@ class Segment:
 
     label: str  # what a person would call it
     mask: np.ndarray  # [h, w] bool
+    score: float = 1.0  # 0..1, how sure the model is
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LanguageResult:
+    """The answer of a language model."""
+
+    text: str
+    record: Mapping[str, Any] = dataclasses.field(default_factory=dict)  # what wrote it, as in `ImageResult.record`
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Surroundings:
+    """Where an image was made: what a segmentation or depth model may know beside its pixels."""
+
+    theme: str
+    room: str  # name of the room
+    view: View  # its name is unique in the scene
+    folder: pathlib.Path | None = None  # the run folder, where clicks of a person lie; None without one
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -103,6 +130,9 @@ class ModelSettings:
     depth: BackendSettings
     segmentation: BackendSettings
     reconstruction: BackendSettings
+    language: BackendSettings | None = None  # names what a segmentation model looks for
+    services: Services | None = None  # what they ask through
+    folder: pathlib.Path | None = None  # the run folder
 
 
 @dataclasses.dataclass(frozen=True)
@@ -126,7 +156,12 @@ class HearingModule(Protocol):
 @runtime_checkable
 class ImageBackend(Protocol):
     def generate(self, request: ImageRequest) -> ImageResult:
-        """One image Phi(X, reference, theme; seed). Equal requests give equal images."""
+        """One image Phi(X, reference, theme; seed). Equal requests give equal images.
+
+        Raises:
+          RefusedError: the model gave no image; it counts as a failed attempt (wm.services.faults).
+          ServiceError: it cannot be reached, or must not be asked any more.
+        """
         ...
 
 
@@ -159,8 +194,29 @@ class ImaginingBackend(ImageBackend, Protocol):
 
 @runtime_checkable
 class LanguageBackend(Protocol):
-    def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> str:
-        """A floor plan as JSON text. `previous` is the last proposal and `violations` are the rules that it broke."""
+    def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> LanguageResult:
+        """A floor plan as JSON text. `previous` is the last proposal and `violations` are the rules that it broke.
+
+        Raises:
+          RefusedError: the model gave no plan, or a cut one; it counts as an iteration.
+          ServiceError: it cannot be reached, or must not be asked any more.
+        """
+        ...
+
+
+@runtime_checkable
+class NamingBackend(LanguageBackend, Protocol):
+    """A language backend that can also say what a segmentation model should look for."""
+
+    def name_things(self, theme: str, room: str, rgb: np.ndarray | None, *, seed: int) -> list[str]:
+        """What pieces of furniture stand in a room: short nouns, each once.
+
+        Args:
+          theme: the scene in words.
+          room: the name of the room.
+          rgb: [h, w, 3] sRGB in [0, 1], an image of the room for models that see; None for none.
+          seed: of the answer.
+        """
         ...
 
 
@@ -182,8 +238,8 @@ class ImageDrivenBackend(ObjectsBackend, Protocol):
 
 @runtime_checkable
 class SegmentationBackend(Protocol):
-    def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
-        """The instances in an image, without structure (walls, doors, windows)."""
+    def segment(self, result: ImageResult, *, where: Surroundings, seed: int) -> list[Segment]:
+        """The instances in an image, without structure (walls, doors, windows), each once."""
         ...
 
 
@@ -198,7 +254,7 @@ class ReconstructionBackend(Protocol):
 
 @runtime_checkable
 class DepthBackend(Protocol):
-    def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
+    def estimate(self, result: ImageResult, *, camera: Camera, seed: int) -> np.ndarray | None:
         """[h, w] floating-point depth of each pixel, of the size of the image; None if no estimate can be given.
 
         It is z-depth up to an unknown positive scale and an unknown shift: larger is farther, and zero and negative values are
@@ -206,6 +262,29 @@ class DepthBackend(Protocol):
         shift of its inverse depth. NaN marks a pixel without an estimate (infinities are read as NaN); verification counts such
         a pixel as one that disagrees.
         """
+        ...
+
+
+@runtime_checkable
+class ServedBackend(Protocol):
+    """A backend of any group that asks a model through the run's services: kept answers, budget, retries (wm.services)."""
+
+    def with_services(self, services: Services) -> Any:
+        """The same backend, which asks through these."""
+        ...
+
+    def quote(self) -> Quote:
+        """What one request is expected to cost. A local model costs seconds."""
+        ...
+
+
+@runtime_checkable
+class ConcurrentBackend(Protocol):
+    """A backend of any group whose methods several threads may call at the same time. Others are asked one call at a time."""
+
+    @property
+    def at_once(self) -> int:
+        """Number of calls that should be under way, at least 1."""
         ...
 
 

@@ -7,10 +7,13 @@ backends").
 import dataclasses
 import time
 from collections import Counter
+from collections.abc import Mapping
+from typing import Any
 
 from wm.geometry.plan.loading import FloorPlan, PlanError, read_plan
 from wm.schema import LONGEST_ROOM_NAME
-from wm.synth.backends import LanguageBackend
+from wm.services.faults import RefusedError
+from wm.synth.backends import LanguageBackend, LanguageResult
 from wm.synth.plan_text import plan_document
 from wm.synth.room_names import CONNECTING, room_sort
 
@@ -24,6 +27,7 @@ class Attempt:
     text: str
     violations: tuple[str, ...]
     seconds: float
+    record: Mapping[str, Any] = dataclasses.field(default_factory=dict)  # what wrote it (LanguageResult)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -70,13 +74,25 @@ def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed
     previous, violations = None, []
     for _ in range(max(max_iterations, 1)):
         start = time.perf_counter()
-        previous = backend.propose(theme, rooms, seed=seed, violations=list(violations), previous=previous)
+        try:
+            result = backend.propose(theme, rooms, seed=seed, violations=list(violations), previous=previous)
+        except RefusedError as refusal:
+            transcript.append(Attempt("", (f"plan: answer: {refusal}",), time.perf_counter() - start))
+            continue
+        previous = _text(result)
         plan, violations = _validated(previous, rooms)
-        transcript.append(Attempt(previous, tuple(violations), time.perf_counter() - start))
+        transcript.append(Attempt(previous, tuple(violations), time.perf_counter() - start, result.record))
         if plan is not None:
             seconds = sum(attempt.seconds for attempt in transcript)
             return Proposal(plan=plan, iterations=len(transcript), seconds=seconds, transcript=tuple(transcript))
     raise ProposalError(tuple(transcript))
+
+
+def _text(result: LanguageResult) -> str:
+    if not isinstance(result, LanguageResult):
+        told = f"{type(result).__module__}.{type(result).__name__}"
+        raise ValueError(f"the language backend returned a {told}, not a LanguageResult (wm.synth.backends)")
+    return result.text
 
 
 def _validated(text: str, rooms: list[str]) -> tuple[FloorPlan | None, list[str]]:

@@ -16,12 +16,14 @@ The key of a stage whose result depends on a backend contains its path, its sett
 """
 
 import importlib
+import pathlib
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 from typing import Any
 
 from wm.errors import InputError
 from wm.schema import BackendSettings, RunConfig
+from wm.services.services import Services
 from wm.synth.backends import (
     ClosableBackend,
     DepthBackend,
@@ -34,6 +36,7 @@ from wm.synth.backends import (
     ReconstructionBackend,
     SceneContext,
     SegmentationBackend,
+    ServedBackend,
 )
 
 GROUPS: Mapping[str, type] = {
@@ -77,13 +80,16 @@ def backend_module(path: str) -> ModuleType:
     return module
 
 
-def make_backend(group: str, settings: BackendSettings, context: SceneContext | None = None) -> Any:
+def make_backend(
+    group: str, settings: BackendSettings, context: SceneContext | None = None, services: Services | None = None
+) -> Any:
     """The selected backend of a group.
 
     Args:
       group: one of GROUPS.
       settings: the Settings of the backend's module. A plain BackendSettings selects the defaults of that module.
       context: the scene; None for the language backend, which runs before there is a scene.
+      services: what a ServedBackend asks through; None: kept nowhere and without limits.
 
     Raises:
       ValueError: there is no such group.
@@ -100,7 +106,7 @@ def make_backend(group: str, settings: BackendSettings, context: SceneContext | 
             f"{group} backend {settings.backend!r}: make() returned a {type(backend).__name__}, which has not all methods of "
             f"{GROUPS[group].__name__}: {', '.join(wanted)}"
         )
-    return backend
+    return backend.with_services(services) if services is not None and isinstance(backend, ServedBackend) else backend
 
 
 def backend_key(settings: BackendSettings) -> tuple[Any, ...]:
@@ -114,11 +120,12 @@ def close_backend(backend: Any) -> None:
         backend.close()
 
 
-def model_settings(config: RunConfig) -> ModelSettings:
-    """The settings of the models of a run, for an image-driven objects backend."""
+def model_settings(config: RunConfig, services: Services | None = None, folder: pathlib.Path | None = None) -> ModelSettings:
+    """The settings of the models of a run, for an image-driven objects backend, and what these models ask through."""
     return ModelSettings(
-        image=config.image, depth=config.depth, segmentation=config.segmentation, reconstruction=config.reconstruction
-    )
+        image=config.image, depth=config.depth, segmentation=config.segmentation, reconstruction=config.reconstruction,
+        language=config.language, services=services, folder=folder,
+    )  # fmt: skip
 
 
 def heard_theme(config: RunConfig) -> HeardTheme | None:

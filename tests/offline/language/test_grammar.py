@@ -27,7 +27,7 @@ seeds = st.integers(0, 2**63 - 1)
 
 
 def first_proposal(theme: str, rooms: list[str], seed: int) -> str:
-    return GRAMMAR.propose(theme, rooms, seed=seed, violations=[], previous=None)
+    return GRAMMAR.propose(theme, rooms, seed=seed, violations=[], previous=None).text
 
 
 @hypothesis.given(st.sampled_from(THEMES), programmes, seeds)
@@ -130,7 +130,7 @@ def test_a_window_over_a_door_is_mended_and_the_rooms_stay():
     with pytest.raises(PlanError) as caught:
         parse_plan(text)
     violations = [str(violation) for violation in caught.value.violations]
-    mended = GRAMMAR.propose("a house", rooms, seed=5, violations=violations, previous=text)
+    mended = GRAMMAR.propose("a house", rooms, seed=5, violations=violations, previous=text).text
     plan = parse_plan(mended)
     for room, was in zip(plan.rooms, broken["rooms"]):
         np.testing.assert_allclose(room.polygon, was["floor_polygon"])
@@ -141,9 +141,10 @@ def test_overlapping_rooms_are_drafted_anew():
     broken = json.loads(first_proposal("a house", rooms, 5))
     broken["rooms"][1]["floor_polygon"] = broken["rooms"][0]["floor_polygon"]
     text = json.dumps(broken)
-    again = GRAMMAR.propose("a house", rooms, seed=5, violations=["room library: rooms_overlap: overlaps hall"], previous=text)
+    violations = ["room library: rooms_overlap: overlaps hall"]
+    again = GRAMMAR.propose("a house", rooms, seed=5, violations=violations, previous=text).text
     assert [room.id for room in parse_plan(again).rooms][: len(rooms)] == ["hall", "library", "kitchen", "bedroom"]
 
 
 def test_the_registry_makes_it():
-    assert make_backend("language", LanguageSettings()).propose("x", ["den"], seed=0, violations=[], previous=None)
+    assert make_backend("language", LanguageSettings()).propose("x", ["den"], seed=0, violations=[], previous=None).text

@@ -33,10 +33,11 @@ from wm.synth.backends import (
     ModelSettings,
     Segment,
     SegmentationBackend,
+    Surroundings,
 )  # fmt: skip
 from wm.synth.lifting.lifted import Models, Settings, lift_room, room_cameras
 from wm.synth.registry import BackendError, make_backend
-from wm.types import OUTSIDE, View
+from wm.types import OUTSIDE, Camera, View
 
 CONFIG = Settings(image_width=240, image_height=180)
 COARSE = ImageSettings(texel_size=0.08)
@@ -91,10 +92,10 @@ class Photographs:
         self.found[rgb.tobytes()] = (0.5 * gbuffer.depth + 0.1, segments)
         return ImageResult(rgb=rgb)
 
-    def estimate(self, result: ImageResult, *, seed: int) -> np.ndarray | None:
+    def estimate(self, result: ImageResult, *, camera: Camera, seed: int) -> np.ndarray | None:
         return self.found[result.rgb.tobytes()][0]
 
-    def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
+    def segment(self, result: ImageResult, *, where: Surroundings, seed: int) -> list[Segment]:
         return self.found[result.rgb.tobytes()][1]
 
 
@@ -220,7 +221,7 @@ def test_cameras_give_way_to_furniture_that_the_image_model_imagines_and_to_no_o
 def test_an_image_model_that_imagines_nothing_and_tells_nothing_is_shown_the_empty_room(monkeypatch):
     """Its requests show the bare structure, from the cameras of the empty room, and it is made for a scene without furniture."""
     log = recorded(monkeypatch, "image", "depth", "segmentation", draws=False)
-    monkeypatch.setattr(Recording, "estimate", lambda self, result, *, seed: None)
+    monkeypatch.setattr(Recording, "estimate", lambda self, result, *, camera, seed: None)
     models = recording_models("image", "depth", "segmentation")
     small = dataclasses.replace(CONFIG, image_width=24, image_height=18)
     with contextlib.closing(make_backend("objects", small, bare()).with_models(models)) as backend:

@@ -14,6 +14,7 @@ from wm.bounds import number, setting
 from wm.schema import BackendSettings
 from wm.synth.backends import ImageResult, SceneContext
 from wm.synth.registry import DRAWN
+from wm.types import Camera
 
 VERSION = "1"
 REQUIRES = (DRAWN,)
@@ -35,7 +36,7 @@ class ProceduralDepth:
 
     config: Settings
 
-    def estimate(self, result: ImageResult, *, seed: int) -> Float[np.ndarray, "h w"] | None:
+    def estimate(self, result: ImageResult, *, camera: Camera | None = None, seed: int) -> Float[np.ndarray, "h w"] | None:
         """[h, w] float32 depth up to scale and shift, NaN where nothing was drawn; None for an image without drawn depth."""
         if result.drawn_depth is None:
             return None

@@ -20,7 +20,7 @@ from wm.offline.language.openings import Hole, draw_openings
 from wm.offline.language.programme import CIRCULATION, Space, read_programme, room_kind_of
 from wm.offline.style.lexicon import words_of
 from wm.schema import BackendSettings
-from wm.synth.backends import HeardTheme, SceneContext
+from wm.synth.backends import HeardTheme, LanguageResult, SceneContext
 
 VERSION = "2"
 _OF_OPENINGS = ("opening", "door", "window", "passage")
@@ -36,7 +36,7 @@ class Settings(BackendSettings):
 class Grammar:
     """The grammar as a `LanguageBackend`. It has no state: equal arguments give equal text."""
 
-    def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> str:
+    def propose(self, theme: str, rooms: list[str], *, seed: int, violations: list[str], previous: str | None) -> LanguageResult:
         """A floor plan as JSON text. Its rooms are in the order of the programme; corridors that were added come after them."""
         building = building_of(theme)
         asked_again = zlib.crc32(previous.encode()) if previous is not None else 0
@@ -50,7 +50,7 @@ class Grammar:
             spaces, polygons = draft(spaces, building, rng)
             ceilings = _ceilings(spaces, building, rng)
         holes = draw_openings(polygons, spaces, ceilings, building, rng)
-        return _as_json(spaces, polygons, ceilings, holes)
+        return LanguageResult(_as_json(spaces, polygons, ceilings, holes))
 
 
 def make(settings: Settings, context: SceneContext | None = None) -> Grammar:

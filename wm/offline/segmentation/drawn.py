@@ -11,7 +11,7 @@ from scipy import ndimage
 
 from wm.bounds import number, setting
 from wm.schema import BackendSettings
-from wm.synth.backends import ImageResult, SceneContext, Segment
+from wm.synth.backends import ImageResult, SceneContext, Segment, Surroundings
 from wm.synth.registry import DRAWN
 
 VERSION = "1"
@@ -38,7 +38,7 @@ class DrawnSegmentation:
 
     config: Settings
 
-    def segment(self, result: ImageResult, *, seed: int) -> list[Segment]:
+    def segment(self, result: ImageResult, *, where: Surroundings | None = None, seed: int) -> list[Segment]:
         """The segments of an image.
 
         Raises:

@@ -14,6 +14,7 @@ Source: WorldMesh, "Object Instantiation" and supplement, "Object Segmentation",
 
 import contextlib
 import dataclasses
+import pathlib
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from wm.geometry.placement.upright_box import box_of
 from wm.geometry.plan.site import Site, room_site
 from wm.geometry.rays.raycast import RayScene, build_ray_scene, cast
 from wm.schema import CameraSettings, ObjectsSettings
+from wm.services.faults import RefusedError, ServiceError
 from wm.synth.backends import (
     Condition,
     DepthBackend,
@@ -40,6 +42,7 @@ from wm.synth.backends import (
     SceneContext,
     Segment,
     SegmentationBackend,
+    Surroundings,
 )
 from wm.synth.checked import checked_estimate, checked_image
 from wm.synth.condition import depth_grey
@@ -54,6 +57,8 @@ from wm.synth.sights import sights
 from wm.types import Camera, SceneObject, View
 
 VERSION = "2"
+_ATTEMPTS = 4
+"""Seeds of a drawing that are tried before the image model's refusals end the run."""
 USES = ("image", "depth", "segmentation", "reconstruction")
 
 
@@ -76,6 +81,7 @@ class Models:
     depth: DepthBackend
     segmentation: SegmentationBackend
     reconstruction: ReconstructionBackend
+    folder: pathlib.Path | None = None  # the run folder
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -144,10 +150,11 @@ class LiftedObjects:
             if faults:
                 raise BackendError("; ".join(faults))
         return Models(
-            image=image if image is not None else make_backend("image", asked.image, context),
-            depth=make_backend("depth", asked.depth, context),
-            segmentation=make_backend("segmentation", asked.segmentation, context),
-            reconstruction=make_backend("reconstruction", asked.reconstruction, context),
+            image=image if image is not None else make_backend("image", asked.image, context, asked.services),
+            depth=make_backend("depth", asked.depth, context, asked.services),
+            segmentation=make_backend("segmentation", asked.segmentation, context, asked.services),
+            reconstruction=make_backend("reconstruction", asked.reconstruction, context, asked.services),
+            folder=asked.folder,
         )
 
     def close(self) -> None:
@@ -227,15 +234,36 @@ def draw(
         view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{0 if reference is None else 1}"),
         seed=seed,
         task="furnish",
+        theme=context.theme,
+        room=plan_room.name,
+        sights=tuple(seen),
     )
-    result = models.image.generate(request)
-    result = dataclasses.replace(result, rgb=checked_image(result.rgb, request.view))
-    estimate = checked_estimate(models.depth.estimate(result, seed=seed), request.view)
+    result = _drawn(models.image, request)
+    estimate = checked_estimate(models.depth.estimate(result, camera=camera, seed=seed), request.view)
     depth = metric_depth(estimate, gbuffer.depth, seed=seed) if estimate is not None else None
     if depth is None:
         return None
-    segments = tidy_segments(models.segmentation.segment(result, seed=seed), depth, min_area=config.min_area)
+    where = Surroundings(theme=context.theme, room=plan_room.name, view=request.view, folder=models.folder)
+    segments = tidy_segments(models.segmentation.segment(result, where=where, seed=seed), depth, min_area=config.min_area)
     return Drawing(camera=camera, result=result, depth=depth, segments=segments)
+
+
+def _drawn(image: ImageBackend, request: ImageRequest) -> ImageResult:
+    """The image of the first attempt that the model does not refuse.
+
+    Raises:
+      ServiceError: it refuses every attempt.
+    """
+    refusals: list[str] = []
+    for attempt in range(_ATTEMPTS):
+        again = request if attempt == 0 else dataclasses.replace(request, seed=_seed(request.seed, attempt))
+        try:
+            result = image.generate(again)
+        except RefusedError as refusal:
+            refusals.append(str(refusal))
+            continue
+        return dataclasses.replace(result, rgb=checked_image(result.rgb, request.view))
+    raise ServiceError(f"view {request.view.name}: the image model refused {_ATTEMPTS} attempts; the last time: {refusals[-1]}")
 
 
 def _observation(drawing: Drawing, segment: Segment) -> Observation:
