@@ -21,6 +21,9 @@ def test_replies_come_in_turn_and_requests_are_kept():
 
 
 def test_a_cut_reply_ends_before_its_length():
-    with Loopback(lambda asked: Reply(body=b"x" * 1000, cut=300)) as server, urllib.request.urlopen(server.url) as reply:
-        with pytest.raises(http.client.IncompleteRead):
-            reply.read()
+    with (
+        Loopback(lambda asked: Reply(body=b"x" * 1000, cut=300)) as server,
+        urllib.request.urlopen(server.url) as reply,
+        pytest.raises(http.client.IncompleteRead),
+    ):
+        reply.read()
