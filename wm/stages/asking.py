@@ -73,12 +73,13 @@ def open_services(config: RunConfig, folder: Path) -> Services:
 
 def announcement(config: RunConfig, services: Services) -> str:
     """What the stage that asks now, and those after it, will ask of models that cost something, and the limits of it."""
-    rows = [row for row in expected(config, services) if STAGES.index(row.stage) >= STAGES.index(services.stage)]
+    to_come = STAGES[STAGES.index(services.stage) : STAGES.index(config.until) + 1]
+    rows = [row for row in expected(config, services) if row.stage in to_come]
     limits = [f"budget.usd={config.budget.usd:g}"] if config.budget.usd is not None else []
     limits += [f"budget.requests={config.budget.requests}"] if config.budget.requests is not None else []
     cells = [(row.stage, row.quote.model, f"{row.requests} requests", _money(row.usd), _time(row.seconds)) for row in rows]
     known = [row.usd for row in rows if row.usd is not None]
-    total = f"about {_money(sum(known))} in all" + (" for those with a price" if len(known) < len(rows) else "")
+    total = f"about {_money(sum(known, 0.0))} in all" + (" for those with a price" if len(known) < len(rows) else "")
     limit = f"limited by {' and '.join(limits)}" if limits else "no limit is set (budget.usd, budget.requests)"
     table = tabulate(cells, tablefmt="plain", colalign=("left", "left", "right", "right", "right"), disable_numparse=True)
     head = f"before models are paid (prices of {config.prices.as_of}; answers that are kept cost nothing):"
