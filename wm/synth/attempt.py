@@ -66,7 +66,7 @@ def paint_view(
       ValueError: a backend returned something other than an image, or a depth estimate, of the view's size.
     """
     edges = binding_edges(shown, request.condition, settings)
-    held = shown.depth if request.condition.objects == "textured" else None
+    held, adds = compared_depth(shown, request.condition, settings), request.condition.objects != "textured"
     condition = as_bytes(request.condition.rgb)
     refusals: list[str] = []
     best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
@@ -80,7 +80,7 @@ def paint_view(
         rgb = as_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
         estimate = _estimate(depth, result, request) if settings.enabled else None
-        verdict = verify(edges, estimate, settings, depth=held)
+        verdict = verify(edges, estimate, settings, depth=held, adds=adds)
         painted = PaintedView(
             rgb=rgb,
             mask=np.ones(shown.hit.shape, bool),
@@ -136,8 +136,20 @@ def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings
     edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
     if condition.objects != "boxes" or condition.object is None:
         return edges
-    near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1)).astype(bool)
-    return edges & ~near
+    return edges & ~_near_boxes(condition, settings)
+
+
+def compared_depth(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Float[np.ndarray, "h w"]:
+    """The depth that an image is held to: that of the conditioning scaffold; 0 near boxes, since furniture does not fill them."""
+    if condition.objects != "boxes" or condition.object is None:
+        return shown.depth
+    return np.where(_near_boxes(condition, settings), np.float32(0), shown.depth)
+
+
+def _near_boxes(condition: Condition, settings: VerifySettings) -> np.ndarray:
+    assert condition.object is not None
+    radius = dilation_radius(settings, condition.object.shape[1])
+    return np.asarray(maximum_filter(condition.object, 2 * radius + 1)).astype(bool)
 
 
 def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
