@@ -11,6 +11,7 @@ import numpy as np
 from wm.geometry.plan.object_json import object_json, read_objects
 from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, PlanObject, Room, Violation
 from wm.geometry.plan.units import METRES, OPENINGS, metres_per, opening_kind, unread
+from wm.geometry.plan.walls import distinct
 from wm.schema import LONGEST_ROOM_NAME
 
 MAX_BYTES = 8 * 2**20
@@ -248,8 +249,7 @@ class Reader:
 
 def _counter_clockwise(points: np.ndarray) -> np.ndarray:
     """The polygon without repeated neighbouring points, counter-clockwise; clockwise ones are reversed."""
-    apart = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1) > 1e-6
-    points = points[apart] if apart.any() else points[:1]
+    points = distinct(points)
     x, y = points.T
     area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
     return points[::-1].copy() if area < 0 else points
