@@ -30,6 +30,8 @@ from wm.validate import ConfigError, validate_config
 
 LINES = 12
 """Of a message of many lines, such as all violations of a plan, so many are said."""
+_QUOTED = 300
+"""Characters of an argument that a message quotes."""
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 CONF = next(folder for folder in (_PACKAGE / "conf", _PACKAGE.parent / "conf") if (folder / "config.yaml").is_file())
@@ -249,8 +251,10 @@ def _guess(word: str, known: Sequence[str], prefix: str = "") -> str:
 
 def _unreadable(argument: str, reason: str) -> str:
     key, equals, value = argument.partition("=")
-    quoting = f"; a text is quoted, within what the shell quotes: {key}={quoted(value)}" if equals else ""
-    return f"cannot read the argument {argument!r}: {reason}{quoting}"
+    shown = argument if len(argument) <= _QUOTED else f"{argument[:_QUOTED]}..."
+    example = f"{key}={quoted(value)}"
+    quoting = f"; a text is quoted, within what the shell quotes: {example}" if equals and shown == argument else ""
+    return one_line(f"cannot read the argument {shown!r}: {reason}{quoting}")
 
 
 def _no_scene() -> str:
