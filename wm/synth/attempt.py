@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, UInt8
 from scipy.ndimage import maximum_filter
 
+from wm.color import to_bytes
 from wm.schema import VerifySettings
 from wm.synth.agreement import agreement
 from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest
@@ -61,12 +62,12 @@ def paint_view(
     """
     edges = binding_edges(shown, request.condition, settings)
     held = shown.depth if request.condition.objects == "textured" else None
-    condition = as_bytes(request.condition.rgb)
+    condition = to_bytes(request.condition.rgb)
     best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
     for attempt in range(max(settings.max_attempts, 1)):
         request = dataclasses.replace(request, seed=attempt_seed(*identity, attempt))
         result = image.generate(request)
-        rgb = as_bytes(checked_image(result.rgb, request.view))
+        rgb = to_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
         estimate = checked_estimate(depth.estimate(result, seed=request.seed), request.view) if settings.enabled else None
         verdict = verify(edges, estimate, settings, depth=held)
@@ -106,11 +107,6 @@ def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings
         return edges
     near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1)).astype(bool)
     return edges & ~near
-
-
-def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1], rounded to 8 bits."""
-    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
 
 
 def as_float(rgb: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w 3"]:
