@@ -181,3 +181,10 @@ def test_all_faults_are_named_at_once():
     config.fit.init = "cubes"
     with pytest.raises(ConfigError, match=r"fit\.init='cubes'.*seed=-1"):
         validate_config(config)
+
+
+def test_endless_and_broken_values_are_quoted_in_one_short_line():
+    for value in ("a" * 5000, "\n", "'" + "b" * 5000):
+        with pytest.raises(ConfigError) as caught:
+            load_config(["gothic", f"fit.steps={value}"])
+        assert "\n" not in str(caught.value) and len(str(caught.value)) < 1000

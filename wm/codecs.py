@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Float, Num, UInt8
+from jaxtyping import Bool, Float, UInt8
 from PIL import Image
 
 from wm.types import Camera, SceneObject, Texture, View
@@ -31,11 +31,6 @@ OBJECT_AXES = (
 
 FAST = 1
 """zlib's compression level for images. It takes a third of the time of the default level 6; files are a tenth larger."""
-
-
-def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1], clipped and rounded to 8 bits. An 8-bit image is returned unchanged."""
-    return rgb if rgb.dtype == np.uint8 else np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
 
 
 def encode_png(rgb: UInt8[np.ndarray, "h w 3"]) -> bytes:

@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float, UInt8
 from scipy.ndimage import maximum_filter
 
 from wm import console
+from wm.color import to_bytes
 from wm.schema import VerifySettings
 from wm.services.faults import RefusedError
 from wm.synth.agreement import agreement
@@ -67,7 +68,7 @@ def paint_view(
     """
     edges = binding_edges(shown, request.condition, settings)
     held, adds = compared_depth(shown, request.condition, settings), request.condition.objects != "textured"
-    condition = as_bytes(request.condition.rgb)
+    condition = to_bytes(request.condition.rgb)
     refusals: list[str] = []
     best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
     for attempt in range(max(settings.max_attempts, 1)):
@@ -77,7 +78,7 @@ def paint_view(
         except RefusedError as refusal:
             refusals.append(str(refusal))
             continue
-        rgb = as_bytes(checked_image(result.rgb, request.view))
+        rgb = to_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
         estimate = _estimate(depth, result, request) if settings.enabled else None
         verdict = verify(edges, estimate, settings, depth=held, adds=adds)
@@ -150,11 +151,6 @@ def _near_boxes(condition: Condition, settings: VerifySettings) -> np.ndarray:
     assert condition.object is not None
     radius = dilation_radius(settings, condition.object.shape[1])
     return np.asarray(maximum_filter(condition.object, 2 * radius + 1)).astype(bool)
-
-
-def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1], rounded to 8 bits."""
-    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
 
 
 def as_float(rgb: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w 3"]:
