@@ -21,12 +21,13 @@ MAX_OPENINGS = 64  # per room
 MAX_COORDINATE = 1e4  # metres
 CEILING = (1.8, 50.0)  # metres: nobody can stand under a lower ceiling
 WALL = (0.05, 1.0)
+WIDEST = 100.0  # metres, of an opening
 WINDOW_SILL = 0.9  # where a window does not say
 # Ids become folder names (views/<room>/), so they hold no character that means something in a path.
-_ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
+ROOM_ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
+OPENING_SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
+"""Least width and height, metres; a body of 0.25 m radius must pass a door."""
 _MOST_NOTES = 20
-# Least and greatest width and height, metres; a body of 0.25 m radius must pass a door.
-_SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
 
 
 def decode(text: str, source: str) -> Any:
@@ -167,7 +168,7 @@ class Reader:
             self._fault(name, "type", f"a room is an object, not {_kind(value)}")
             return None
         room_id = value.get("id")
-        if isinstance(room_id, str) and _ID.fullmatch(room_id):
+        if isinstance(room_id, str) and ROOM_ID.fullmatch(room_id):
             name = room_id
         else:
             self._fault(
@@ -208,10 +209,10 @@ class Reader:
             self._fault(room, "opening_type", f"{name}.type is {_show(value.get('type'))}; choices: {', '.join(OPENINGS)}")
             return None
         segment = self._points(room, value.get("wall_segment"), f"{name}.wall_segment", 2, 2)
-        least_width, least_height = _SIZES[kind]
+        least_width, least_height = OPENING_SIZES[kind]
         position = self._number(room, value, f"{name}.position", None, 0.0, MAX_COORDINATE)
         why = "" if kind == "window" else ", so that a person gets through"
-        width = self._number(room, value, f"{name}.width", None, least_width, 100.0, why)
+        width = self._number(room, value, f"{name}.width", None, least_width, WIDEST, why)
         height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1], why)
         sill = self._number(
             room,
