@@ -14,7 +14,7 @@ from typing import Any, Generic, TypeVar
 
 from wm.bounds import choice, setting
 from wm.errors import InputError
-from wm.models.extras import require_extra
+from wm.models.access import optional_module
 from wm.models.weights import Weights, find_weights
 from wm.schema import BESIDE, BackendSettings
 from wm.services.faults import ServiceError
@@ -76,14 +76,17 @@ class LocalModel(Generic[T]):
         Raises:
           InputError, MissingExtraError, ServiceError: see `find_weights`.
         """
-        if "@" not in self.settings.model:
-            require_extra(self._extra, *self._packages)  # for the hub's cache
-        return find_weights(self.settings.model)
+        return find_weights(self.settings.model, self._extra)
 
     @property
     def name(self) -> str:
         """The model in requests: the same on every machine that has these weights."""
         return self.weights.name
+
+    @property
+    def title(self) -> str:
+        """The model for a reader, without its commit. Nothing is looked up."""
+        return self.settings.model.partition("@")[0]
 
     def run(self, work: Callable[[T], R]) -> R:
         """What `work` returns of the model, while no other local model works.
@@ -93,24 +96,27 @@ class LocalModel(Generic[T]):
           InputError: the device is not there.
           ServiceError: the weights cannot be loaded, or the memory of the device does not suffice.
         """
-        require_extra(self._extra, *self._packages)
-        import torch
-
+        torch = self._import()
         with _ONE_AT_A_TIME, torch.no_grad(), torch.backends.cudnn.flags(enabled=True, benchmark=False, deterministic=True):
             try:
-                return work(self._held().model)
+                return work(self._held(torch).model)
             except torch.OutOfMemoryError as error:
                 raise ServiceError(
                     f"{self.name}: the memory of the device does not suffice; dtype=bfloat16, offload=model where a backend has "
                     "it, smaller images, or device=cpu need less"
                 ) from error
 
-    def _held(self) -> _Loaded:
+    def _import(self) -> Any:
+        """torch, once everything that is needed has been found."""
+        modules = [optional_module(name, self._extra) for name in self._packages]
+        return modules[0]
+
+    def _held(self, torch: Any) -> _Loaded:
         if self._key is None:
-            device = device_of(self.settings.device)
-            key = (self._load, self.name, device, self.settings.dtype, self._options)
+            device, dtype = device_of(self.settings.device, torch), getattr(torch, self.settings.dtype)
+            key = (self._load, self.name, device, dtype, self._options)
             if key not in _LOADED:
-                _LOADED[key] = _Loaded(self._load(self.weights, device, _dtype(self.settings.dtype), *self._options), 0)
+                _LOADED[key] = _Loaded(self._load(self.weights, device, dtype, *self._options), 0)
             _LOADED[key].users += 1
             self._key = key
         return _LOADED[self._key]
@@ -124,17 +130,19 @@ class LocalModel(Generic[T]):
             _LOADED[key].users -= 1
             if not _LOADED[key].users:
                 del _LOADED[key]
-                _give_memory_back()
+                _give_memory_back(self._import())
 
 
-def device_of(wanted: str) -> str:
+def device_of(wanted: str, torch: Any) -> str:
     """The device that a setting `device` means on this machine.
+
+    Args:
+      wanted: auto | cuda | mps | cpu.
+      torch: the module.
 
     Raises:
       InputError: it is not there.
     """
-    import torch
-
     there = {"cuda": torch.cuda.is_available(), "mps": torch.backends.mps.is_available(), "cpu": True}
     if wanted == "auto":
         return next(name for name, available in there.items() if available)
@@ -144,15 +152,7 @@ def device_of(wanted: str) -> str:
     return wanted
 
 
-def _dtype(name: str) -> Any:
-    import torch
-
-    return getattr(torch, name)
-
-
-def _give_memory_back() -> None:
-    import torch
-
+def _give_memory_back(torch: Any) -> None:
     gc.collect()  # models hold themselves in cycles
     if torch.cuda.is_available():
         torch.cuda.empty_cache()

@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 from wm.errors import InputError
+from wm.models.access import optional_module
 from wm.services.faults import ServiceError
 
 _REPOSITORY = re.compile(r"[\w.-]+/[\w.-]+(@[\w.-]+)?")
@@ -34,11 +35,16 @@ class Weights:
         return f"{pathlib.Path(self.source).name if self.local else self.source}@{self.revision}"
 
 
-def find_weights(model: str) -> Weights:
+def find_weights(model: str, extra: str) -> Weights:
     """The weights that a setting `model` names: a folder, "owner/name@commit", or "owner/name" for the newest commit that this
     machine has or, if it has none, the newest of the hub.
 
+    Args:
+      model: the setting.
+      extra: the extra of wm that installs what looks the newest commit up.
+
     Raises:
+      MissingExtraError: no commit is named, and it cannot be looked up.
       InputError: it is neither a folder nor the name of a repository.
       ServiceError: no commit is named, and the hub cannot tell the newest.
     """
@@ -48,7 +54,7 @@ def find_weights(model: str) -> Weights:
     if not _REPOSITORY.fullmatch(model):
         raise InputError(f"{model!r} is no folder here; a folder with weights, or OWNER/NAME@COMMIT of the hub, would be right")
     source, _, revision = model.partition("@")
-    return Weights(source=source, revision=revision or _newest(source), local=False)
+    return Weights(source=source, revision=revision or _newest(source, extra), local=False)
 
 
 def load_whole(kind: Any, weights: Weights, **options: Any) -> Any:
@@ -73,18 +79,22 @@ def load(kind: Any, weights: Weights, **options: Any) -> Any:
     Raises:
       ServiceError: the files are nowhere, cannot be read, or do not belong to `kind`.
     """
-    from safetensors import SafetensorError
-
     _quiet()
-    faults = (OSError, ValueError, KeyError, RuntimeError, SafetensorError)
-    pinned = {} if weights.local else {"revision": weights.revision}
-    for here in (True,) if weights.local else (True, False):
-        try:
-            return kind.from_pretrained(weights.source, local_files_only=here, **pinned, **options)
-        except faults as error:
-            fault = error
-    hint = "" if weights.local else "; if the repository asks to accept its licence, do so on the hub and set HF_TOKEN"
-    raise ServiceError(f"{weights.name} cannot be loaded as {kind.__name__}: {_first_line(fault)}{hint}") from fault
+    try:
+        if weights.local:
+            return kind.from_pretrained(weights.source, local_files_only=True, **options)
+        return _from_hub(kind, weights, **options)
+    except Exception as error:  # readers of files raise errors of many kinds
+        hint = "" if weights.local else "; if the repository asks to accept its licence, do so on the hub and set HF_TOKEN"
+        raise ServiceError(f"{weights.name} cannot be loaded as {kind.__name__}: {_first_line(error)}{hint}") from error
+
+
+def _from_hub(kind: Any, weights: Weights, **options: Any) -> Any:
+    """From the hub's cache on this machine, without a request; what is not there from the hub."""
+    try:
+        return kind.from_pretrained(weights.source, revision=weights.revision, local_files_only=True, **options)
+    except OSError:
+        return kind.from_pretrained(weights.source, revision=weights.revision, **options)
 
 
 def _quiet() -> None:
@@ -99,18 +109,16 @@ def _first_line(error: Exception) -> str:
     return (str(error).strip() or type(error).__name__).splitlines()[0]
 
 
-def _newest(source: str) -> str:
+def _newest(source: str, extra: str) -> str:
     """The commit of the branch main that this machine has in the hub's cache; without one, the hub's."""
-    from huggingface_hub import HfApi, try_to_load_from_cache
-    from huggingface_hub.errors import HfHubHTTPError
-
+    hub = optional_module("huggingface_hub", extra)
     for name in _INDEX:
-        file = try_to_load_from_cache(source, name, revision="main")
+        file = hub.try_to_load_from_cache(source, name, revision="main")
         if isinstance(file, str):
             return pathlib.Path(file).parent.name  # snapshots/<commit>/<name>
     try:
-        return str(HfApi().model_info(source, revision="main").sha)
-    except (OSError, HfHubHTTPError) as error:
+        return str(hub.HfApi().model_info(source, revision="main").sha)
+    except Exception as error:  # of the hub, of its HTTP client, of the network
         raise ServiceError(
             f"{source} is not on this machine, and the hub cannot be asked for it ({_first_line(error)}); a folder with the "
             "weights, or a connection, is needed"

@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from wm.bounds import setting
+from wm.models.access import optional_module
 from wm.models.depth.local_depth import LocalDepth
 from wm.models.depth.resampling import at_size, fitted
 from wm.models.local_model import WEIGHTS, LocalModel, LocalSettings
@@ -24,6 +25,7 @@ from wm.synth.backends import SceneContext
 from wm.types import Camera
 
 VERSION = "1"
+SERVED = True
 _SMALL_INDOOR = "depth-anything/Depth-Anything-V2-Metric-Indoor-Small-hf@4d5187ef4957085a714f15b6ae43230a8b813c03"
 _SIDE, _MULTIPLE = 518, 14  # pixels
 _MEAN, _DEVIATION = (0.485, 0.456, 0.406), (0.229, 0.224, 0.225)  # of ImageNet's channels
@@ -49,9 +51,7 @@ def _as_it_is(depth: Float[np.ndarray, "h w"], camera: Camera) -> Float[np.ndarr
 
 
 def _load(weights: Weights, device: str, dtype: Any) -> Any:
-    from transformers import DepthAnythingForDepthEstimation
-
-    model = load_whole(DepthAnythingForDepthEstimation, weights, dtype=dtype)
+    model = load_whole(optional_module("transformers", "depth").DepthAnythingForDepthEstimation, weights, dtype=dtype)
     if model.config.depth_estimation_type != "metric":
         raise ServiceError(
             f"{weights.name} gives inverse depth with an unknown shift; one of the checkpoints Depth-Anything-V2-Metric-* would "

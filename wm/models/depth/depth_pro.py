@@ -18,6 +18,7 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from wm.bounds import setting
+from wm.models.access import optional_module
 from wm.models.depth.local_depth import LocalDepth
 from wm.models.depth.resampling import at_size, squashed
 from wm.models.local_model import WEIGHTS, LocalModel, LocalSettings
@@ -26,6 +27,7 @@ from wm.synth.backends import SceneContext
 from wm.types import Camera
 
 VERSION = "1"
+SERVED = True
 _NEAREST, _FARTHEST = 1e-4, 1e4  # metres
 
 
@@ -52,9 +54,9 @@ def metric(canonical: Float[np.ndarray, "h w"], camera: Camera) -> Float[np.ndar
 
 
 def _load(weights: Weights, device: str, dtype: Any) -> Any:
-    from transformers import DepthProForDepthEstimation
-
-    return load_whole(DepthProForDepthEstimation, weights, use_fov_model=False, dtype=dtype).to(device)
+    return load_whole(
+        optional_module("transformers", "depth").DepthProForDepthEstimation, weights, use_fov_model=False, dtype=dtype
+    ).to(device)
 
 
 def make(settings: Settings, context: SceneContext | None) -> LocalDepth:

@@ -41,7 +41,7 @@ class LocalDepth:
         return dataclasses.replace(self, services=services)
 
     def quote(self) -> Quote:
-        return self.services.quote(self.settings.model, paid=False)
+        return self.services.quote(self.model.title, paid=False)
 
     def close(self) -> None:
         self.model.close()

@@ -16,6 +16,7 @@ import numpy as np
 from PIL import Image
 
 from wm.bounds import choice, number, setting
+from wm.models.access import optional_module
 from wm.models.image.canvas import canvas_size, scaled
 from wm.models.local_model import WEIGHTS, LocalModel, LocalSettings
 from wm.models.weights import Weights, load, load_whole
@@ -26,6 +27,8 @@ from wm.services.services import Services
 from wm.synth.backends import ImageRequest, ImageResult, SceneContext
 
 VERSION = "1"
+SERVED = True
+_EXTRA = "diffusers"
 _SIDE = 16  # pixels: sides are multiples of it (a patch of 2 x 2 latents of 8 pixels)
 _LEAST_SIDE = 64  # pixels: smaller images are refused by the pipeline
 _LARGEST = 1024 * 1024  # pixels: larger conditions are scaled down by the pipeline
@@ -64,7 +67,7 @@ class Flux2Klein:
         return dataclasses.replace(self, services=services)
 
     def quote(self) -> Quote:
-        return self.services.quote(self.settings.model, paid=False)
+        return self.services.quote(self.model.title, paid=False)
 
     def close(self) -> None:
         self.model.close()
@@ -101,8 +104,7 @@ class Flux2Klein:
         return np.round(np.clip(scaled(rgb, *size), 0, 1) * 255).astype(np.uint8)
 
     def _drawn(self, pipe: Any, request: ImageRequest, shown: list[np.ndarray]) -> ServiceAnswer:
-        import torch
-
+        generator = optional_module("torch", _EXTRA).Generator("cpu")  # the same noise on every device
         height, width = shown[0].shape[:2]
         prompt = fitting_prompt(request.prompt, request.theme, lambda text: _tokens(pipe.tokenizer, text))
         if prompt != request.prompt:
@@ -110,7 +112,7 @@ class Flux2Klein:
         rgb = pipe(
             prompt=prompt, image=[Image.fromarray(rgb) for rgb in shown], height=height, width=width,
             num_inference_steps=self.settings.steps, guidance_scale=self.settings.guidance,
-            generator=torch.Generator("cpu").manual_seed(request.seed), output_type="np",
+            generator=generator.manual_seed(request.seed), output_type="np",
         ).images[0]  # fmt: skip
         if not np.isfinite(rgb).all():
             return ServiceAnswer(refusal=f"the image has values that are not numbers; dtype={_TYPES[1]} may help")
@@ -160,12 +162,13 @@ def _decoded(png: bytes) -> np.ndarray:
 
 def _load(weights: Weights, device: str, dtype: Any, offload: str) -> Any:
     """The pipeline. Its parts are loaded one by one, so that none lacks weights."""
-    from diffusers import AutoencoderKLFlux2, Flux2KleinPipeline, Flux2Transformer2DModel
-    from transformers import Qwen3ForCausalLM
-
-    kinds = {"transformer": Flux2Transformer2DModel, "vae": AutoencoderKLFlux2, "text_encoder": Qwen3ForCausalLM}
+    diffusers, transformers = (optional_module(name, _EXTRA) for name in ("diffusers", "transformers"))
+    kinds = {
+        "transformer": diffusers.Flux2Transformer2DModel, "vae": diffusers.AutoencoderKLFlux2,
+        "text_encoder": transformers.Qwen3ForCausalLM,
+    }  # fmt: skip
     parts = {name: load_whole(kind, weights, subfolder=name, dtype=dtype) for name, kind in kinds.items()}
-    pipe = load(Flux2KleinPipeline, weights, **parts)
+    pipe = load(diffusers.Flux2KleinPipeline, weights, **parts)
     pipe.set_progress_bar_config(disable=True)
     if device == "cpu" or offload == "none":
         pipe.to(device)
@@ -179,4 +182,4 @@ def _load(weights: Weights, device: str, dtype: Any, offload: str) -> Any:
 def make(settings: Settings, context: SceneContext | None) -> Flux2Klein:
     """The backend. It does not use the scene. Weights are loaded when the first image is asked for."""
     needed = ("diffusers", "accelerate")
-    return Flux2Klein(settings, LocalModel(settings, _load, extra="diffusers", packages=needed, options=(settings.offload,)))
+    return Flux2Klein(settings, LocalModel(settings, _load, extra=_EXTRA, packages=needed, options=(settings.offload,)))
