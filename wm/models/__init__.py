@@ -1,1 +1,4 @@
-"""Backends of real models. This version has none; a model of your own can come from outside (see wm.synth.registry)."""
+"""Backends of real models, a package a group. SDKs and weights are reached only when a model is asked (wm.synth.registry).
+
+segmentation  SAM 3, by names or by clicks
+"""
