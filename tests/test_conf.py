@@ -102,7 +102,7 @@ def test_the_standard_preset_is_the_schema():
     config = load_config(["+scene=gothic"])
     backends = {group: dataclasses.replace(getattr(config, group)) for group in GROUPS}
     assert all(settings == type(settings)() for settings in backends.values())
-    assert leaves(config) == leaves(RunConfig(**backends)) | {
+    assert leaves(config) == leaves(RunConfig(**backends, prices=config.prices)) | {
         "scene.name": "gothic",
         "scene.theme": config.scene.theme,
         "scene.rooms": config.scene.rooms,

@@ -90,21 +90,23 @@ class RunFolder:
             self.record(name, key, files)
         return bool(files)
 
-    def save(self, name: str, key: str, files: Mapping[str, Writer | bytes | str]) -> None:
-        """Writes the files of an entry, each atomically, and then records it."""
+    def save(
+        self, name: str, key: str, files: Mapping[str, Writer | bytes | str], note: Mapping[str, Any] | None = None
+    ) -> None:
+        """Writes the files of an entry, each atomically, and then records it, with a note of JSON values if there is one."""
         for relative, write in files.items():
             self.write(relative, write)
-        self.record(name, key, list(files))
+        self.record(name, key, list(files), note)
 
     def write(self, relative: str, content: Writer | bytes | str) -> None:
         """Writes a file atomically. One that belongs to no entry, because it depends on the clock, is written with this alone."""
         write_atomically(confined(self.path, relative, replaced=True), content)
 
-    def record(self, name: str, key: str, relatives: list[str]) -> None:
+    def record(self, name: str, key: str, relatives: list[str], note: Mapping[str, Any] | None = None) -> None:
         """Records an entry whose files are already in place; files that it had before and has no more are removed."""
         digests = {relative: file_digest(confined(self.path, relative)) for relative in sorted(relatives)}
         former = self._entries.get(name, {"files": {}})["files"]
-        self._entries[name] = {"key": key, "files": digests}
+        self._entries[name] = {"key": key, "files": digests, **({"note": dict(note)} if note else {})}
         self._asked.add(name)
         self.recorded += 1
         self._remove({relative: expected for relative, expected in former.items() if relative not in digests})

@@ -96,7 +96,7 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
             plan = _told(pathlib.Path(file))
             layout = {"source": "file", "iterations": 0, "seconds": 0.0}
         else:
-            backend = make_backend("language", config.language)
+            backend = make_backend("language", config.language, services=run.services)
             proposal = propose_plan(
                 backend, config.scene.theme, list(config.scene.rooms), seed=seed, max_iterations=config.plan.max_iterations
             )
@@ -128,7 +128,7 @@ def _user_file(file: str) -> pathlib.Path:
 def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tuple[SceneObject, ...], str]:
     config = run.config
     file = _arrangement_file(config)
-    furnisher = make_furnisher(config, context, run.folder.path)
+    furnisher = make_furnisher(config, context, run.services, run.folder.path)
     rearranged = [file_digest(_existing(file))] if file is not None else []
     made_of = (_FORMAT, plan_key, *_meshes(context.plan), config.furnish, config.scene.theme, *furnisher.keys)
     key = run.key("furnish", *made_of, *rearranged)

@@ -9,6 +9,7 @@ from typing import Any
 from wm.geometry import FloorPlan, build_structure, load_plan
 from wm.geometry.exchange.plan_objects import plan_objects
 from wm.schema import RunConfig
+from wm.services.services import Services
 from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext
 from wm.synth.object_ids import with_ids
 from wm.synth.proposing import propose_plan
@@ -38,16 +39,21 @@ class Furnisher:
             return objects
 
 
-def make_furnisher(config: RunConfig, context: SceneContext, folder: pathlib.Path | None = None) -> Furnisher:
+def make_furnisher(
+    config: RunConfig, context: SceneContext, services: Services | None = None, folder: pathlib.Path | None = None
+) -> Furnisher:
     """The Furnisher of the selected objects backend. An image-driven backend uses the selected models.
 
-    `folder` is the run folder, where drawings are kept and clicks of a person are read; None keeps and reads none.
+    Args:
+      config, context: the configuration and its scene.
+      services: what models ask through; None: kept nowhere and without limits.
+      folder: the run folder, where drawings are kept and a person's clicks are read; None without one.
     """
-    backend: ObjectsBackend = make_backend("objects", config.objects, context)
+    backend: ObjectsBackend = make_backend("objects", config.objects, context, services)
     own = backend_key(config.objects)
     if not isinstance(backend, ImageDrivenBackend):
         return Furnisher(backend, own)
-    models = model_settings(config, folder=folder)
+    models = model_settings(config, services, folder)
     asked = [models.image, models.depth, models.segmentation, models.reconstruction]
     if "language" in getattr(backend_module(config.segmentation.backend), "USES", ()):
         asked.append(config.language)

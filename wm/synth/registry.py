@@ -12,6 +12,8 @@ The key of a stage whose result depends on a backend contains its path, its sett
     PROVIDES                -> of an image backend: what its results contain beyond the protocol, such as DRAWN
     REQUIRES                -> what it needs from PROVIDES of the selected image backend
     USES                    -> the other groups of backends that it uses
+    SERVED                  -> True if its backends ask a model through the run's services (ServedBackend); `make` then needs no
+                               scene to say what a request costs
     heard(theme)            -> which words of a theme it uses and which it does not know (HeardTheme)
     reads(folder)           -> JSON values that stand for the files of a run folder that it reads, for the key of its stage
 """

@@ -102,7 +102,7 @@ def test_images_without_clicks_are_one_error_that_says_what_to_do(tmp_path, back
     said = str(caught.value)
     assert f"python -m wm.annotate {tmp_path}" in said and "the same command goes on" in said and "\n" not in said
     assert "5 of 6 images" in said and "room0/furnish1, room1/furnish0" in said and "room0/furnish0" not in said
-    with pytest.raises(ClicksError, match="wm.annotate"):
+    with pytest.raises(ClicksError, match=r"wm\.annotate"):
         backend.segment(*drawn[1][:1], where=drawn[1][1], seed=0)
     with pytest.raises(ClicksError, match="there is none"):
         backend.prepare([(IMAGE, place(None))])

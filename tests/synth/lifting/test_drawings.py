@@ -55,7 +55,7 @@ def test_a_file_that_was_changed_or_broken_is_refused(tmp_path):
     whole = (tmp_path / drawing.file).read_bytes()
     for content in ((tmp_path / other.file).read_bytes(), whole[:60], b"no picture"):
         (tmp_path / drawing.file).write_bytes(content)
-        with pytest.raises(ArtifactError, match="hall/furnish0.png"):
+        with pytest.raises(ArtifactError, match=r"hall/furnish0\.png"):
             read_drawing(tmp_path, drawing)
     (tmp_path / drawing.file).unlink()
     with pytest.raises(ArtifactError, match="draws it anew"):
