@@ -25,9 +25,9 @@ VARIANTS = {
 }
 CHOICES = {
     "language": {"grammar"},
-    "image": {"procedural", "like_closed", "like_distilled"},
+    "image": {"procedural", "like_closed", "like_distilled", "flux2_klein", "flux2_klein_4b", "flux2_klein_9b"},
     "objects": {"procedural", "lifted"},
-    "depth": {"procedural"},
+    "depth": {"procedural", "depth_pro", "depth_anything_2"},
     "segmentation": {"drawn"},
     "reconstruction": {"templates"},
 }
@@ -122,7 +122,7 @@ def test_a_scene_of_ones_own():
         (["+scene=gotik"], "scene=gotik: no such scene; did you mean gothic. choose one of beach_house, .*scandinavian"),
         (["preset=fast"], "preset=fast: no such preset; choose one of draft, paper, standard"),
         (["variant=none"], "variant=none: no such variant; choose one of depth_objects, .*no_pcd_init"),
-        (["image=gan"], "image=gan: no such image; choose one of like_closed, like_distilled, procedural"),
+        (["image=gan"], "image=gan: no such image; choose one of .*like_closed, like_distilled, procedural"),
         (["image.backend=gan"], "image: backend 'gan' cannot be imported: ModuleNotFoundError"),
         (["depth.backend=wm.types"], "depth: module 'wm.types' is no backend: it has no make, Settings, VERSION"),
         (["language.backend=wm.offline.image.painter"], "language: settings of wm.offline.language.grammar do not suit"),

@@ -22,6 +22,9 @@ WIDTH = 32
 @functools.cache
 def checkpoint(name: str) -> pathlib.Path:
     """The folder of a checkpoint: one of BUILDERS. It is removed when the process ends, and must not be changed."""
+    import torch
+
+    torch.set_num_threads(1)  # the processes of a suite share the cores
     folder = _scratch() / name
     for part in BUILDERS[name]():
         part.save_pretrained(folder)
