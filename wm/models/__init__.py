@@ -2,6 +2,7 @@
 
     image         images of views
     depth         depth of images
+    segmentation  things in images, by names or by clicks
     access        packages of extras and secrets of the environment, when they are needed and not before
     http_client   an HTTP client whose time limit holds for a whole request
     http_faults   what goes wrong between here and a service, told apart by whether a later try helps

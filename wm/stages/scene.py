@@ -23,8 +23,9 @@ from wm.stages import edits
 from wm.stages.arranged import ArrangementError, arranged, is_json
 from wm.stages.hearing import hear
 from wm.stages.run_context import RunContext
-from wm.synth.backends import SceneContext
+from wm.synth.backends import ImageDrivenBackend, SceneContext
 from wm.synth.furnished import Furnisher, bare_context, make_furnisher
+from wm.synth.lifting.drawings import drawing_files
 from wm.synth.object_ids import with_ids
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
@@ -138,7 +139,7 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
     if edited is not None and is_json(arrangement.read_bytes()):
         objects = arranged(_furnished(run, context, furnisher), arrangement.read_bytes(), context.plan, str(arrangement))
         consequence = "cameras, paintings and all that follows are made again"
-        edits.accept(run, "furnish", edited, [OBJECT_ARRAYS, OBJECTS], consequence)
+        edits.accept(run, "furnish", edited, [OBJECT_ARRAYS, *_drawings(run, furnisher), OBJECTS], consequence)
         return objects, edited
     if not run.folder.has("furnish", key):
         objects = made = _made(run, context, furnisher)
@@ -146,7 +147,10 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
             objects = arranged(made, _existing(file).read_bytes(), context.plan, file)
         text = json_text(codecs.object_summary(objects, [room.id for room in context.plan.rooms]))
         edits.keep_copy(run, "furnish", OBJECTS, text)
-        run.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(made), OBJECTS: text})
+        files = {OBJECT_ARRAYS: codecs.encode_objects(made), OBJECTS: text}
+        for name, content in files.items():
+            run.folder.write(name, content)
+        run.folder.record("furnish", key, [*files, *_drawings(run, furnisher)])
     made = codecs.decode_objects((run.folder.path / OBJECT_ARRAYS).read_bytes())
     return arranged(made, arrangement.read_bytes(), context.plan, str(arrangement)), key
 
@@ -167,6 +171,11 @@ def _furnished(run: RunContext, context: SceneContext, furnisher: Furnisher) -> 
     if entry is None or not arrays.is_file() or entry["files"].get(OBJECT_ARRAYS) != file_digest(arrays):
         write_atomically(arrays, codecs.encode_objects(_made(run, context, furnisher)))
     return codecs.decode_objects(arrays.read_bytes())
+
+
+def _drawings(run: RunContext, furnisher: Furnisher) -> list[str]:
+    """The files of the images that the furniture was lifted from."""
+    return drawing_files(run.folder.path) if isinstance(furnisher.backend, ImageDrivenBackend) else []
 
 
 def _meshes(plan: FloorPlan) -> list[str]:
