@@ -151,13 +151,12 @@ def _pose(view: View, room: str) -> dict[str, Any]:
     }
 
 
-def transforms_json(views: Sequence[View], rooms: Sequence[str], ply: str) -> dict[str, Any]:
-    """nerfstudio's transforms.json of all views: opens in any tool that reads that format. `ply` names a point cloud with colours
-    from which trainers start. `wm.geometry.load_cameras` reads it back."""
+def transforms_json(views: Sequence[View], rooms: Sequence[str]) -> dict[str, Any]:
+    """nerfstudio's transforms.json of all views: opens in any tool that reads that format. `wm.geometry.load_cameras` reads it
+    back."""
     return {
         "camera_model": "OPENCV",
         "depth_unit_scale_factor": DEPTH_UNIT,
-        "ply_file_path": ply,
         "frames": [camera_frame(view, rooms[view.room]) for view in views],
     }
 

@@ -21,7 +21,7 @@ from wm.stages.history import HISTORY, history_text, read_history
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.run_context import RunContext
-from wm.stages.scene import POINTS, Scene
+from wm.stages.scene import POINTS, Scene, name_points
 from wm.stages.starting import starting_gaussians
 from wm.types import GAUSSIAN_FIELDS, OUTSIDE, Gaussians, GBuffer, View
 
@@ -50,6 +50,7 @@ def reconstruct(run: RunContext, scene: Scene, painted: Painted, heldout: HeldOu
         key = run.key("reconstruct", painted.key, config.fit, config.raster)
         if not run.folder.has("reconstruct", key):
             _fit(run, scene, painted, heldout, capacity, key)
+        name_points(run)
         rooms = _split(codecs.decode_arrays((run.folder.path / BY_ROOM).read_bytes()))
         return ReconstructedScene(
             rooms=rooms,
