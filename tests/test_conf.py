@@ -24,12 +24,19 @@ VARIANTS = {
     "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
 }
 CHOICES = {
-    "language": {"grammar"},
-    "image": {"procedural", "like_closed", "like_distilled", "flux2_klein", "flux2_klein_4b", "flux2_klein_9b"},
+    "language": {
+        "grammar",
+        *("claude", "claude_opus", "claude_sonnet", "claude_haiku"),
+        *("openai_compatible", "vllm", "llama_cpp", "ollama", "qwen_coder", "gpt_oss"),
+    },
+    "image": {
+        *("procedural", "like_closed", "like_distilled"),
+        *("nano_banana_pro", "openai_images", "flux2_klein", "flux2_klein_4b", "flux2_klein_9b"),
+    },
     "objects": {"procedural", "lifted"},
     "depth": {"procedural", "depth_pro", "depth_anything_2"},
-    "segmentation": {"drawn"},
-    "reconstruction": {"templates"},
+    "segmentation": {"drawn", "sam3_text", "sam3_clicks"},
+    "reconstruction": {"templates", "sam3d_objects", "image_to_3d"},
 }
 FLAWS = ("drift", "exposure", "phase", "softness", *KINDS)
 PRESETS = {"draft": (344, 192), "standard": (688, 384), "paper": (1376, 768)}
