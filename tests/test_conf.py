@@ -133,7 +133,7 @@ def test_a_scene_of_ones_own():
         (["image.backend=gan"], "image: backend 'gan' cannot be imported: ModuleNotFoundError"),
         (["depth.backend=wm.types"], "depth: module 'wm.types' is no backend: it has no make, Settings, VERSION"),
         (["language.backend=wm.offline.image.painter"], "language: settings of wm.offline.language.grammar do not suit"),
-        (["segmentation=sam"], "segmentation=sam: no such segmentation; choose one of drawn"),
+        (["segmentation=sam"], "segmentation=sam: no such segmentation; choose one of drawn, sam3_clicks, sam3_text"),
         (["objects.segmentation=drawn"], "objects.segmentation: no such key; objects has backend"),
         (["image.drifft=1"], "image.drifft: no such key; did you mean image.drift. image has backend, drift"),
         (["+image.drifft=1"], "image.drifft: no such key; did you mean image.drift"),

@@ -8,7 +8,8 @@ import pytest
 from tests.models import tiny
 from wm.geometry.rays.pinhole import make_camera
 from wm.models.segmentation import sam3_clicks
-from wm.models.segmentation.checkpoint import image_tensor, load_model
+from wm.models.segmentation.sam3 import image_tensor, load_tracker
+from wm.models.weights import find_weights
 from wm.services.faults import ServiceError
 from wm.services.services import Services
 from wm.services.store import AnswerStore
@@ -58,7 +59,7 @@ def test_each_instance_is_one_segment_and_the_building_is_none(tmp_path, backend
 
 
 def test_masks_are_those_of_the_model_asked_directly(backend):
-    model = load_model("Sam3TrackerModel", settings())
+    model = load_tracker(find_weights(str(tiny.checkpoint("sam3_tracker")), "sam"), "cpu", torch.float32)
     scale = np.array([112 / 90, 112 / 60])
     for thing in (SOFA, LAMP):
         points = torch.tensor(np.array([[c.x, c.y] for c in thing.clicks]) * scale - 0.5, dtype=torch.float32)[None, None]
@@ -144,5 +145,5 @@ def test_the_key_of_the_furniture_changes_with_the_clicks(tmp_path):
 def test_a_checkpoint_without_the_heads_for_clicks_is_refused(tmp_path):
     mark(tmp_path, SOFA)
     backend = sam3_clicks.make(settings(model=str(tiny.checkpoint("sam3"))))
-    with pytest.raises(ServiceError, match=r"lacks \d+ weights of Sam3TrackerModel \(mask_decoder"):
+    with pytest.raises(ServiceError, match=r"\d+ weights are missing, such as mask_decoder.*Sam3TrackerModel"):
         backend.segment(IMAGE, where=place(tmp_path), seed=0)

@@ -15,7 +15,7 @@ from jaxtyping import UInt8
 from wm.bounds import setting
 from wm.geometry.placement.support import is_structure
 from wm.models.segmentation import masks
-from wm.models.segmentation.checkpoint import Sam3Settings, model_name
+from wm.models.segmentation.sam3 import Sam3Settings
 from wm.models.segmentation.tracker import Tracker
 from wm.services.records import Quote, ServiceAnswer, ServiceRequest
 from wm.services.services import Services
@@ -24,6 +24,7 @@ from wm.synth.lifting.clicks import ClickedImage, ClicksError, clicks_state, loa
 from wm.synth.lifting.drawings import KeptDrawing, pixel_digest, pixels
 
 VERSION = "1"
+SERVED = True
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
@@ -45,7 +46,7 @@ class Sam3Clicks:
         return dataclasses.replace(self, services=services)
 
     def quote(self) -> Quote:
-        return self.services.quote(model_name(self.config), paid=False)
+        return self.services.quote(self.tracker.model.title, paid=False)
 
     def prepare(self, drawn: Sequence[tuple[ImageResult, Surroundings]]) -> None:
         """Looks whether a person has marked all drawings.
@@ -80,10 +81,11 @@ class Sam3Clicks:
         """
         told = [[click.x, click.y, click.on] for click in clicks]
         content = {"image": rgb, "clicks": told, "dtype": self.config.dtype}
-        request = ServiceRequest(backend=__name__, model=model_name(self.config), content=content, paid=False)
+        request = ServiceRequest(backend=__name__, model=self.tracker.model.name, content=content, paid=False)
 
         def send() -> ServiceAnswer:
-            return ServiceAnswer(files=masks.encode(self.tracker.mask(rgb, clicks)), model_version=self.tracker.version)
+            files = masks.encode(self.tracker.mask(rgb, clicks))
+            return ServiceAnswer(files=files, model_version=self.tracker.model.name, finish_reason="done")
 
         found = masks.decode(dict(self.services.ask(request, send).files))
         mask = masks.resized(found.logits[0].astype(np.float32), rgb.shape[:2]) > 0

@@ -6,11 +6,13 @@ for. Source: WorldMesh, supplement, "Object Segmentation", last sentence.
 """
 
 import dataclasses
+from typing import Any
 
 from wm.bounds import number, setting
+from wm.models.local_model import LocalModel
 from wm.models.segmentation import masks
-from wm.models.segmentation.checkpoint import Sam3Settings, model_name
-from wm.models.segmentation.detector import Detector
+from wm.models.segmentation.detector import detect
+from wm.models.segmentation.sam3 import EXTRA, Sam3Settings, load_detector
 from wm.services.faults import RefusedError
 from wm.services.records import Quote, ServiceAnswer, ServiceRequest
 from wm.services.services import Services
@@ -20,6 +22,7 @@ from wm.synth.lifting.usual_things import searchable, usual_things
 
 VERSION = "1"
 USES = ("language",)
+SERVED = True
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
@@ -39,7 +42,7 @@ class Sam3Text:
     """The backend."""
 
     config: Settings
-    detector: Detector
+    model: LocalModel[Any]
     services: Services = dataclasses.field(default_factory=Services)
     language: LanguageBackend | None = None
 
@@ -50,7 +53,7 @@ class Sam3Text:
         return dataclasses.replace(self, language=language)
 
     def quote(self) -> Quote:
-        return self.services.quote(model_name(self.config), paid=False)
+        return self.services.quote(self.model.title, paid=False)
 
     def segment(self, result: ImageResult, *, where: Surroundings, seed: int) -> list[Segment]:
         """The things that are named and found, the surest first.
@@ -60,11 +63,11 @@ class Sam3Text:
         """
         names, image = self.names(result, where=where, seed=seed), pixels(result.rgb)
         content = {"image": image, "names": names, "threshold": self.config.threshold, "dtype": self.config.dtype}
-        request = ServiceRequest(backend=__name__, model=model_name(self.config), content=content, paid=False)
+        request = ServiceRequest(backend=__name__, model=self.model.name, content=content, paid=False)
 
         def send() -> ServiceAnswer:
-            found = self.detector.find(image, names, threshold=self.config.threshold)
-            return ServiceAnswer(files=masks.encode(found), model_version=self.detector.version)
+            found = self.model.run(lambda loaded: detect(loaded, image, names, self.config.threshold))
+            return ServiceAnswer(files=masks.encode(found), model_version=self.model.name, finish_reason="done")
 
         found = masks.decode(dict(self.services.ask(request, send).files))
         return masks.segments(found, image.shape[:2], inside=self.config.mask_threshold, most=self.config.same)
@@ -76,7 +79,7 @@ class Sam3Text:
         return own or searchable(self._proposed(result, where, seed), most=most) or list(usual_things(where.room))[:most]
 
     def close(self) -> None:
-        self.detector.close()
+        self.model.close()
 
     def _proposed(self, result: ImageResult, where: Surroundings, seed: int) -> list[str]:
         if not isinstance(self.language, NamingBackend):
@@ -89,4 +92,4 @@ class Sam3Text:
 
 def make(config: Settings, context: SceneContext | None = None) -> Sam3Text:
     """The backend. It loads its model when it is first asked for something that is not answered yet."""
-    return Sam3Text(config, Detector(config))
+    return Sam3Text(config, LocalModel(config, load_detector, extra=EXTRA))

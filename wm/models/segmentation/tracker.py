@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from jaxtyping import UInt8
 
-from wm.models.segmentation.checkpoint import Sam3Settings, free_memory, image_tensor, libraries, load_model, version_of
+from wm.models.access import optional_module
+from wm.models.local_model import LocalModel
 from wm.models.segmentation.masks import FoundMasks, halves
-from wm.services.faults import ServiceError
+from wm.models.segmentation.sam3 import EXTRA, Sam3Settings, check_finite, image_tensor, load_tracker
 from wm.synth.backends import Click
 from wm.synth.lifting.drawings import pixel_digest
 
@@ -24,19 +25,13 @@ _IMAGES = 4
 
 
 class Tracker:
-    """The model, loaded when it is first asked, with the embeddings of the last images. One thread asks it at a time."""
+    """The model, with the embeddings of the last images."""
 
     def __init__(self, settings: Sam3Settings):
-        self._settings = settings
-        self._model: Any = None
+        self.model: LocalModel[Any] = LocalModel(settings, load_tracker, extra=EXTRA)
         self._embedded: collections.OrderedDict[str, list[Any]] = collections.OrderedDict()
         self.encoded = 0
         """Images that it has encoded."""
-
-    @property
-    def version(self) -> str:
-        """Of the weights, where the hub tells it."""
-        return "" if self._model is None else version_of(self._model)
 
     def mask(self, rgb: UInt8[np.ndarray, "h w 3"], clicks: Sequence[Click]) -> FoundMasks:
         """The one mask that the clicks mean, with the IoU that the model expects it to have as score; the label is empty.
@@ -44,45 +39,43 @@ class Tracker:
         Raises:
           MissingExtraError, ServiceError: the model cannot be loaded, or computes values that are not finite.
         """
-        torch, _ = libraries()
-        with torch.inference_mode():
-            embeddings = self._embeddings(rgb)
-            points, signs = self._prompt(rgb.shape[:2], clicks)
-            out = self._model(
-                image_embeddings=embeddings, input_points=points, input_labels=signs, multimask_output=len(clicks) == 1
-            )
+        return self.model.run(lambda model: self._mask(model, rgb, clicks))
+
+    def close(self) -> None:
+        """Gives the memory back. Asking again loads the model again."""
+        self._embedded.clear()
+        self.model.close()
+
+    def _mask(self, model: Any, rgb: np.ndarray, clicks: Sequence[Click]) -> FoundMasks:
+        points, signs = _prompt(model, rgb.shape[:2], clicks)
+        out = model(
+            image_embeddings=self._embeddings(model, rgb),
+            input_points=points,
+            input_labels=signs,
+            multimask_output=len(clicks) == 1,
+        )
         scores, masks = out.iou_scores[0, 0].float(), out.pred_masks[0, 0].float()
-        if not bool(torch.isfinite(scores).all() and torch.isfinite(masks).all()):
-            raise ServiceError(f"SAM 3 computes values that are not finite in {self._settings.dtype}; segmentation.dtype=float32")
+        check_finite(str(model.dtype).removeprefix("torch."), scores, masks)
         best = int(scores.argmax())
         score = min(max(float(scores[best]), 0.0), 1.0)
         return FoundMasks(halves(masks[best].cpu().numpy())[None], ("",), (score,))
 
-    def close(self) -> None:
-        """Gives the memory back. Asking again loads the model again."""
-        if self._model is not None:
-            self._model = None
-            self._embedded.clear()
-            free_memory(self._settings)
-
-    def _embeddings(self, rgb: np.ndarray) -> list[Any]:
-        if self._model is None:
-            self._model = load_model("Sam3TrackerModel", self._settings)
+    def _embeddings(self, model: Any, rgb: np.ndarray) -> list[Any]:
         key = pixel_digest(rgb)
         if key not in self._embedded:
-            self._embedded[key] = self._model.get_image_embeddings(image_tensor(rgb, self._model))
+            self._embedded[key] = model.get_image_embeddings(image_tensor(rgb, model))
             self.encoded += 1
         self._embedded.move_to_end(key)
         while len(self._embedded) > _IMAGES:
             self._embedded.popitem(last=False)
         return self._embedded[key]
 
-    def _prompt(self, shape: tuple[int, ...], clicks: Sequence[Click]) -> tuple[Any, Any]:
-        """[1, 1, n, 2] points and [1, 1, n] labels, 1 on the thing and 0 beside it."""
-        torch, _ = libraries()
-        model = self._model
-        scale = model.config.vision_config.image_size / np.array([shape[1], shape[0]], np.float64)
-        points = np.array([[click.x, click.y] for click in clicks], np.float64) * scale - 0.5
-        signs = [int(click.on) for click in clicks]
-        as_points = torch.tensor(points, dtype=model.dtype, device=model.device)[None, None]
-        return as_points, torch.tensor(signs, dtype=torch.int64, device=model.device)[None, None]
+
+def _prompt(model: Any, shape: tuple[int, ...], clicks: Sequence[Click]) -> tuple[Any, Any]:
+    """[1, 1, n, 2] points and [1, 1, n] labels, 1 on the thing and 0 beside it."""
+    torch = optional_module("torch", EXTRA)
+    scale = model.config.vision_config.image_size / np.array([shape[1], shape[0]], np.float64)
+    points = np.array([[click.x, click.y] for click in clicks], np.float64) * scale - 0.5
+    signs = [int(click.on) for click in clicks]
+    as_points = torch.tensor(points, dtype=model.dtype, device=model.device)[None, None]
+    return as_points, torch.tensor(signs, dtype=torch.int64, device=model.device)[None, None]
