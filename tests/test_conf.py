@@ -27,9 +27,9 @@ CHOICES = {
     "language": {"grammar"},
     "image": {"procedural", "like_closed", "like_distilled"},
     "objects": {"procedural", "lifted"},
-    "depth": {"procedural"},
+    "depth": {"procedural", "depth_anything_3"},
     "segmentation": {"drawn"},
-    "reconstruction": {"templates"},
+    "reconstruction": {"templates", "image_to_3d", "sam3d_objects"},
 }
 FLAWS = ("drift", "exposure", "phase", "softness", *KINDS)
 PRESETS = {"draft": (344, 192), "standard": (688, 384), "paper": (1376, 768)}
