@@ -24,7 +24,11 @@ VARIANTS = {
     "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
 }
 CHOICES = {
-    "language": {"grammar"},
+    "language": {
+        "grammar",
+        *("claude", "claude_opus", "claude_sonnet", "claude_haiku"),
+        *("openai_compatible", "vllm", "llama_cpp", "ollama", "qwen_coder", "gpt_oss"),
+    },
     "image": {"procedural", "like_closed", "like_distilled", "nano_banana", "nano_banana_pro", "openai_images"},
     "objects": {"procedural", "lifted"},
     "depth": {"procedural"},

@@ -6,5 +6,6 @@ SDKs are imported when the first request is sent, never before.
     http_client   an HTTP client whose time limit holds for a whole request
     http_faults   what goes wrong between here and a service, told apart by whether a later try helps
     image         image models
+    language      language models
     prompt_files  Prompts: what models are told, in files of wm/models/prompts that a user's own can replace
 """
