@@ -1,6 +1,7 @@
 """The stages of a run: each is a function of the run's context and of the results of the stages before it.
 
     run_context     RunContext: the configuration, the run folder and the meter, which every stage needs
+    asking          open_services: what backends ask models through, and what that will cost
     scene           build_scene: the stages plan, structure, furnish and cameras
     painting        paint: an image for every training view
     heldout         render_heldout: the true image of each held-out view
