@@ -1,7 +1,16 @@
 """python -m wm.annotate: which runs can be annotated, and what is said of the others."""
 
+import os
+import re
+import signal
+import subprocess
+import sys
+import urllib.request
+from pathlib import Path
+
 import pytest
 
+import wm
 from tests.annotation.discs import drawn_run
 from wm.annotate import main, opened
 from wm.errors import InputError
@@ -40,3 +49,21 @@ def test_runs_that_cannot_be_annotated_are_told_from_each_other(tmp_path, capsys
         assert main([str(tmp_path / name), "--no-browser"]) == 2
         out, err = capsys.readouterr()
         assert out == "" and err.startswith("wm.annotate: ") and words in err and err.count("\n") == 1
+
+
+def test_it_prints_its_address_serves_the_page_and_ends_at_ctrl_c(tmp_path):
+    """Neither torch nor a checkpoint is needed before the first click."""
+    drawn_run(tmp_path, CLICKS)
+    command = [sys.executable, "-m", "wm.annotate", str(tmp_path), "--no-browser"]
+    env = os.environ | {"PYTHONPATH": str(Path(wm.__file__).parents[1])}
+    with subprocess.Popen(command, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            address = re.search(r"http://127\.0\.0\.1:\d+/[\w-]{32}/", process.stdout.readline())[0]
+            with urllib.request.urlopen(address, timeout=30) as page:
+                assert b"page.js" in page.read()
+            with urllib.request.urlopen(f"{address}images", timeout=30) as page:
+                assert b"hall/furnish0" in page.read()
+            process.send_signal(signal.SIGINT)
+            assert process.wait(30) == 0 and process.stderr.read() == ""
+        finally:
+            process.kill()

@@ -86,7 +86,7 @@ def _handler(session: Session, token: str) -> type[http.server.BaseHTTPRequestHa
 
         def _path(self) -> str | None:
             """What stands after the token; None once the request is refused."""
-            port = self.server.server_address[1]
+            port = self.connection.getsockname()[1]
             if self.headers.get("Host") not in (f"127.0.0.1:{port}", f"localhost:{port}"):
                 self._refuse(403, "another host than this server")
                 return None
@@ -135,7 +135,7 @@ def _handler(session: Session, token: str) -> type[http.server.BaseHTTPRequestHa
             self.end_headers()
             self.wfile.write(content)
 
-        def log_message(self, *arguments: object) -> None:
+        def log_message(self, format: str, *args: object) -> None:
             """Says nothing: the address holds the token."""
 
     return Handler

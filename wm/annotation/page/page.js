@@ -164,7 +164,7 @@ function draw() {
   $("fact").textContent = fact();
   $("confirm").disabled = !view.current;
   $("undo").disabled = $("clear").disabled = !view.clicks.length;
-  const names = image() ? image().suggestions : [];
+  const names = [...new Set([...view.things.map((thing) => thing.label), ...(image() ? image().suggestions : [])])];
   $("names").replaceChildren(...names.map((name) => element("option", "", { value: name })));
   $("chips").replaceChildren(...names.map((name) => element("button", name, { onclick: () => named(name) })));
   $("things").replaceChildren(...view.things.map(thingRow));
@@ -174,10 +174,14 @@ function draw() {
   fit();
 }
 
+function spoken(name) {
+  return name.replace(/\/furnish(\d+)$/, (_, number) => " " + (Number(number) + 1)).replaceAll("_", " ");
+}
+
 function imageRow(one, number) {
   const row = element("li", "", { className: number === view.chosen ? "chosen" : "", tabIndex: 0 });
-  row.append(element("b", one.name), element("small", (one.finished ? "\u2713 " : "") + one.marked));
-  row.title = one.room;
+  row.append(element("b", spoken(one.name)), element("small", (one.finished ? "\u2713 " : "") + one.marked));
+  row.title = one.name;
   row.onclick = () => guarded(() => choose(number));
   row.onkeydown = (event) => event.key === "Enter" && (event.stopPropagation(), row.onclick());
   return row;

@@ -50,12 +50,12 @@ def make_models(asked: ModelSettings, context: SceneContext, image: ImageBackend
     def made(group: str, settings: Any) -> Any:
         return make_backend(group, settings, context, asked.services)
 
-    image = image if image is not None else made("image", asked.image)
+    drawing: ImageBackend = image if image is not None else made("image", asked.image)
     depth, segmentation, language = made("depth", asked.depth), made("segmentation", asked.segmentation), None
     if isinstance(segmentation, NamedSegmentation) and asked.language is not None:
         language = make_backend("language", asked.language, None, asked.services)
         segmentation = segmentation.with_language(language)
     return Models(
-        image=image, depth=depth, segmentation=segmentation, reconstruction=made("reconstruction", asked.reconstruction),
+        image=drawing, depth=depth, segmentation=segmentation, reconstruction=made("reconstruction", asked.reconstruction),
         language=language, folder=asked.folder,
     )  # fmt: skip
