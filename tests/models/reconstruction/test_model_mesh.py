@@ -83,20 +83,6 @@ def test_slots_and_the_two_sides_of_a_sheet_keep_their_colours():
     np.testing.assert_array_equal(thing.emission, fine.emission)
 
 
-def test_a_mesh_of_too_many_faces_is_decimated():
-    pytest.importorskip("fast_simplification")
-    content = painted_sphere(5).export(file_type="glb")
-    thing = model_mesh(content, label="stool", room=1, most_faces=500, texels=40_000)
-    points, colors = shown(thing)
-    assert len(thing.faces) <= 500
-    off = np.abs(np.linalg.norm(points, axis=1) - 0.25)
-    assert off.mean() < 0.003 and off.max() < 0.015  # a face of 6 cm lies up to a few millimetres inside the sphere
-    upright = points @ np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
-    assert np.median(np.abs(colors - colors_at(upright))) < 0.02
-    again = model_mesh(content, label="stool", room=1, most_faces=500, texels=40_000)
-    assert again.vertices.tobytes() == thing.vertices.tobytes() and again.texture.image.tobytes() == thing.texture.image.tobytes()
-
-
 def test_without_the_package_that_decimates_its_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "fast_simplification", None)
     with pytest.raises(MissingExtraError, match=r"320 faces must be decimated to 100: pip install 'wm\[sam3d\]'"):
