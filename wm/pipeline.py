@@ -156,7 +156,11 @@ def _earlier_times(folder: pathlib.Path, entries: Iterable[str]) -> Rows:
 def _stopped(context: RunContext) -> str:
     until = context.config.until
     goes_on = f"stopped after {until}; the same command without until={until} goes on"
-    return "\n".join(["", _times(context), *filter(None, [paid(context.services)]), goes_on, f"results: {context.folder.path}"])
+    former = context.folder.overwrites and context.folder.unasked
+    stays = ["what the former run has left of later stages stays in the folder until this run is completed"] if former else []
+    spent = paid(context.services)
+    more = [spent] * bool(spent)
+    return "\n".join(["", _times(context), *more, goes_on, *stays, f"results: {context.folder.path}"])
 
 
 def _summary(context: RunContext, metrics: dict) -> str:

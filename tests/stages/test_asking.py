@@ -16,7 +16,8 @@ from tests.test_pipeline import SMALL
 from wm import pipeline
 from wm.bounds import setting
 from wm.cli.composition import load_config
-from wm.codecs import decode_png, encode_png, to_bytes
+from wm.codecs import decode_png, encode_png
+from wm.color import to_bytes
 from wm.schema import BackendSettings, BudgetConfig, PricesConfig
 from wm.services.faults import BudgetError, ReplayError
 from wm.services.prices import Price

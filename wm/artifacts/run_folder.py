@@ -61,6 +61,11 @@ class RunFolder:
         """The first words of the names of all entries: "paint" of "paint/hall/bootstrap0"."""
         return {name.partition("/")[0] for name in self._entries}
 
+    @property
+    def unasked(self) -> set[str]:
+        """Names of the entries that this process has neither asked for nor made."""
+        return set(self._entries) - self._asked
+
     def has(self, name: str, key: str) -> bool:
         """Whether entry `name` made from `key` is here and whole; a damaged one is forgotten, with a line.
 
@@ -118,7 +123,7 @@ class RunFolder:
 
     def drop_unasked(self) -> None:
         """Forgets the entries that this process has neither asked for nor made, and removes their files: a former run's."""
-        self._drop([name for name in self._entries if name not in self._asked])
+        self._drop(self.unasked)
 
     def _drop(self, names: Iterable[str]) -> None:
         stale = [self._entries.pop(name) for name in names]
