@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wm.geometry.mesh.object_colors import object_colors
@@ -49,7 +49,7 @@ def test_a_small_mesh_is_read_as_it_is():
     np.testing.assert_allclose(colors, colors_at(upright), atol=0.06)
 
 
-@pytest.mark.parametrize("texels", [10_000, 90_000])
+@pytest.mark.parametrize("texels", [10_000, pytest.param(90_000, marks=pytest.mark.slow)])
 def test_the_colours_of_a_fine_mesh_are_baked_into_a_coarse_one(texels):
     fine = model_mesh(painted_sphere(4).export(file_type="glb"), **WIDE)
     coarse = trimesh.creation.icosphere(2, 0.25)
@@ -107,6 +107,7 @@ def test_a_broken_file_is_a_refusal(fault):
         model_mesh(BROKEN[fault], **WIDE)
 
 
+@settings(max_examples=8)
 @given(st.integers(0, 10_000), st.floats(0.001, 0.4))
 def test_distances_from_a_box_are_exact(seed, away):
     rng = np.random.default_rng(seed)
