@@ -122,6 +122,7 @@ def test_an_answer_is_kept_and_asked_for_once(tmp_path):
     assert result is not None and result.thing.vertices.tobytes() == first[1]
 
 
+@pytest.mark.slow
 def test_a_changed_script_is_asked_anew(tmp_path):
     seen, store, text = wardrobe_seen(), AnswerStore(tmp_path / "answers"), pathlib.Path(EXAMPLE).read_text()
     sent = []
@@ -200,7 +201,7 @@ def test_what_stands_outside_the_room_or_is_hardly_seen_is_left_out(faulty):
     [
         ('"mesh.glb": mesh.export', '"model.glb": mesh.export', r"an answer has no mesh\.glb, but values\.json, model\.glb"),
         ("import trimesh", "import sam3d", r"(?s)answer\(\) raised ModuleNotFoundError: No module named 'sam3d'"),
-        (RETURN, "    import os; os._exit(9)\n", r"(?s)3 times in succession"),
+        pytest.param(RETURN, "    import os; os._exit(9)\n", r"(?s)3 times in succession", marks=pytest.mark.slow),
     ],
 )
 def test_a_script_that_is_wrong_is_one_clear_error(tmp_path, old, new, said):

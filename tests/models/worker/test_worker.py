@@ -144,7 +144,25 @@ PASSING = {
 }
 
 
-@pytest.mark.parametrize("fault", [*LASTING, *PASSING])
+SLOW = {
+    "killed",
+    "terminated",
+    "without close",
+    "by an error",
+    "hangs with a child",
+    "says nothing",
+    "missing package in load",
+    "exits by sys.exit",
+    "no such function",
+}
+
+
+def marked(names) -> list:
+    """The names, those of SLOW marked so."""
+    return [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in names]
+
+
+@pytest.mark.parametrize("fault", marked([*LASTING, *PASSING]))
 def test_a_fault_is_one_clear_error_and_leaves_nothing(tmp_path, temporary, fault):
     text, said = (LASTING | PASSING)[fault]
     worker = worker_of(script(tmp_path, text), request=1.0 if "hangs" in fault else 30.0)
@@ -170,7 +188,7 @@ LAUNCHERS = {
 }
 
 
-@pytest.mark.parametrize("fault", LAUNCHERS)
+@pytest.mark.parametrize("fault", marked(LAUNCHERS))
 def test_an_interpreter_that_is_none_is_one_clear_error(tmp_path, temporary, fault):
     text, kind, said = LAUNCHERS[fault]
     launcher = tmp_path / "python"
@@ -273,7 +291,7 @@ ENDS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("way", [next(iter(ENDS)), *(pytest.param(way, marks=pytest.mark.slow) for way in list(ENDS)[1:])])
+@pytest.mark.parametrize("way", marked(ENDS))
 def test_it_ends_with_its_parent(tmp_path, temporary, way):
     end, stop = ENDS[way]
     path = script(tmp_path, in_answer(f"print('begun', flush=True); {SLEEPS}"))

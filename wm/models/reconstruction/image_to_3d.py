@@ -43,8 +43,8 @@ _POINTS = 2000
 """Points of an observation from which the residual is taken."""
 _LEAST = 12
 """Smallest number of observed points for a reconstruction."""
-_OUTSIDE = 0.05
-"""Metres by which the middle of a thing may lie outside the room."""
+_OUTSIDE = 0.25
+"""Metres by which the middle of a thing may lie outside the room: what hangs on a wall is moved to it later."""
 
 
 @dataclasses.dataclass(kw_only=True, unsafe_hash=True)
@@ -129,17 +129,25 @@ class ImageTo3D:
         thing = model_mesh(
             answer.files[MESH], label=label, room=room, most_faces=self.settings.faces, texels=self.settings.texels
         )
-        pose = told_pose(answer)
-        placed = posed(thing, pose, seen.camera) if pose is not None else None
-        residual = _residual(placed, points)
-        if placed is None or residual > self.settings.tolerance:
-            other = fitted(thing, seen)
-            if _residual(other, points) < residual:
-                placed, residual = other, _residual(other, points)
-        if placed is None or residual > self.settings.tolerance:
-            raise RefusedError(f"its mesh lies {residual:.2f} m from the points that the images show")
+        placed, residual = self._placed(thing, told_pose(answer), seen, points)
         if not shapely.contains_xy(site.polygon.buffer(_OUTSIDE), *box_of(placed).center):
             raise RefusedError("its mesh stands outside the room")
+        return placed, residual
+
+    def _placed(
+        self, thing: SceneObject, pose: ModelPose | None, seen: Observation, points: np.ndarray
+    ) -> tuple[SceneObject, float]:
+        """(the thing in the world, its residual), by its model's pose or by a fitted one. Raises: RefusedError if neither is near
+        the points."""
+        placed = None if pose is None else posed(thing, pose, seen.camera)
+        residual = _residual(placed, points)
+        if residual > self.settings.tolerance:
+            other = fitted(thing, seen)
+            placed, residual = min(((placed, residual), (other, _residual(other, points))), key=lambda one: one[1])
+        if placed is None or not np.isfinite(residual):
+            raise RefusedError("its mesh fits nowhere into the image")
+        if residual > self.settings.tolerance:
+            raise RefusedError(f"its mesh lies {residual:.2f} m from the points that the images show")
         return placed, residual
 
 

@@ -1,16 +1,15 @@
 """The mesh file that an image-to-3D model answers with, as an object with few enough faces, its colours in slots or a texture."""
 
-import importlib
 import pathlib
 import tempfile
-from typing import Any
 
 import numpy as np
 
 from wm.geometry.exchange.mesh_error import MeshError
 from wm.geometry.exchange.object_file import load_object
+from wm.models.access import optional_module
 from wm.models.reconstruction.baking import baked
-from wm.services.faults import MissingExtraError, RefusedError
+from wm.services.faults import RefusedError
 from wm.types import SceneObject
 
 
@@ -46,13 +45,7 @@ def _decimated(thing: SceneObject, most_faces: int) -> tuple[np.ndarray, np.ndar
 
     Source: Garland and Heckbert, "Surface simplification using quadric error metrics", 1997, as fast-simplification has it.
     """
-    try:
-        fast: Any = importlib.import_module("fast_simplification")
-    except ImportError as error:
-        raise MissingExtraError(
-            f"a mesh of {len(thing.faces)} faces must be decimated to {most_faces}: pip install 'wm[sam3d]', "
-            "or allow more with reconstruction.faces"
-        ) from error
+    fast = optional_module("fast_simplification", "sam3d")
     middle = thing.vertices.mean(axis=0)
     vertices, faces = fast.simplify(thing.vertices - middle, thing.faces, target_count=most_faces)
     return np.asarray(vertices, np.float64) + middle, np.asarray(faces, np.int32)

@@ -53,8 +53,8 @@ def interpreter(settings: WorkerSettings) -> str:
     """
     if not settings.python:
         raise InputError(
-            f"{settings.backend}: python=PATH must name the interpreter that has the model's packages, "
-            "such as /opt/conda/envs/NAME/bin/python"
+            f"{settings.backend}: python=PATH must name the interpreter that has the model's packages, such as "
+            "/opt/conda/envs/NAME/bin/python; kept answers alone need only serves='NAME VERSION'"
         )
     found = shutil.which(os.path.expanduser(settings.python))
     if found is None:
