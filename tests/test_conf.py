@@ -34,7 +34,7 @@ CHOICES = {
         *("nano_banana", "nano_banana_pro", "openai_images", "flux2_klein", "flux2_klein_4b", "flux2_klein_9b"),
     },
     "objects": {"procedural", "lifted"},
-    "depth": {"procedural", "depth_pro", "depth_anything_2"},
+    "depth": {"procedural", "depth_pro", "depth_anything_2", "depth_anything_3"},
     "segmentation": {"drawn", "sam3_text", "sam3_clicks"},
     "reconstruction": {"templates", "sam3d_objects", "image_to_3d"},
 }

@@ -7,6 +7,7 @@
     heldout         render_heldout: the true image of each held-out view
     reconstruction  reconstruct: gaussians from the painted views
     starting        starting_gaussians: the initial gaussians of a room
+    tucked          tucked: discs on unseen surface that no view sees
     warm_up         warming_up: what the fit will run is compiled while views are painted
     executors       room_executor: the executor that fits rooms, by its name in the configuration
     evaluation      evaluate: the metrics, measured on held-out views

@@ -1,5 +1,6 @@
 """Image backends that ask services, whatever the service: what is asked, kept and told. No SDK is needed."""
 
+import dataclasses
 import sys
 
 import numpy as np
@@ -153,6 +154,11 @@ def test_prompts_tell_what_the_method_knows(family):
         second = {"image/nano_banana": "second image", "image/gpt_image": "Image 2"}[family]
         assert second in beside.prompt and second not in alone.prompt
         assert len(alone.images) == 1 and np.array_equal(beside.images[1], VIEW[:50])
+
+
+def test_a_request_that_says_nothing_of_the_scene_keeps_the_prompt_of_the_method():
+    request = dataclasses.replace(image_request(VIEW), theme="", room="", sights=())
+    assert drawing_of(request, ImageCanvas(344, 192), Prompts(FAMILIES[0])).prompt == "a prompt of the method"
 
 
 @pytest.mark.parametrize("family", FAMILIES)

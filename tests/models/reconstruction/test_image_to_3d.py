@@ -56,7 +56,9 @@ def in_world(result, seen):
 def test_a_thing_stands_upright_where_its_points_are(options):
     seen = wardrobe_seen()
     with contextlib.closing(backend(options=options)) as model:
-        assert isinstance(model, ReconstructionBackend) and isinstance(model, ServedBackend) and isinstance(model, ClosableBackend)
+        assert (
+            isinstance(model, ReconstructionBackend) and isinstance(model, ServedBackend) and isinstance(model, ClosableBackend)
+        )
         result = model.reconstruct("oak wardrobe", seen, site(), 0, seed=3)
     assert result is not None and result.residual < 0.12
     thing = in_world(result, seen)
@@ -133,7 +135,10 @@ def test_a_changed_script_is_asked_anew(tmp_path):
 
 
 def test_another_model_than_the_named_one_is_told(tmp_path):
-    with contextlib.closing(backend(serves="box of points 2")) as model, pytest.raises(InputError, match="serves 'box of points 1'"):
+    with (
+        contextlib.closing(backend(serves="box of points 2")) as model,
+        pytest.raises(InputError, match="serves 'box of points 1'"),
+    ):
         model.reconstruct("wardrobe", wardrobe_seen(), site(), 0, seed=3)
 
 
@@ -199,9 +204,9 @@ def test_what_stands_outside_the_room_or_is_hardly_seen_is_left_out(faulty):
     ],
 )
 def test_a_script_that_is_wrong_is_one_clear_error(tmp_path, old, new, said):
-    with contextlib.closing(backend(script(tmp_path, EXAMPLE_TEXT.replace(old, new)))) as model:
-        with pytest.raises(ServiceError, match=said):
-            model.reconstruct("wardrobe", wardrobe_seen(), site(), 0, seed=3)
+    wrong = backend(script(tmp_path, EXAMPLE_TEXT.replace(old, new)))
+    with contextlib.closing(wrong), pytest.raises(ServiceError, match=said):
+        wrong.reconstruct("wardrobe", wardrobe_seen(), site(), 0, seed=3)
 
 
 @pytest.mark.parametrize(
@@ -223,9 +228,9 @@ def test_settings_that_cannot_work_are_told_before_anything_is_asked(module, set
 
 def test_the_script_for_sam3d_names_what_it_lacks(tmp_path):
     config = sam3d_objects.Settings(python=PYTHON, repository=str(tmp_path))
-    with contextlib.closing(make_backend("reconstruction", config, bare())) as model:
-        with pytest.raises(ServiceError, match="must be a clone of sam-3d-objects"):
-            model.reconstruct("wardrobe", wardrobe_seen(), site(), 0, seed=3)
+    model = make_backend("reconstruction", config, bare())
+    with contextlib.closing(model), pytest.raises(ServiceError, match="must be a clone of sam-3d-objects"):
+        model.reconstruct("wardrobe", wardrobe_seen(), site(), 0, seed=3)
 
 
 def test_a_room_is_lifted_with_a_worker_of_another_process():

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from wm.geometry.mesh.object_colors import object_colors
 from wm.models.reconstruction.baking import baked
 from wm.models.reconstruction.model_mesh import model_mesh
-from wm.models.reconstruction.surface_points import distances, surface_points
+from wm.models.reconstruction.surface_distance import surface_distance
 from wm.services.faults import MissingExtraError, RefusedError
 from wm.types import SceneObject
 
@@ -32,8 +32,13 @@ def colors_at(points: np.ndarray) -> np.ndarray:
 
 def shown(thing: SceneObject, count: int = 2000) -> tuple[np.ndarray, np.ndarray]:
     """(points [n, 3] of a thing's surface, their colours [n, 3])."""
-    found = surface_points(thing.vertices, thing.faces, count)
-    return found.points, object_colors([thing], np.zeros(count, np.intp), found.face, found.barycentric)
+    rng = np.random.default_rng(0)
+    face = rng.integers(len(thing.faces), size=count)
+    u, v = np.sort(rng.random((2, count)), axis=0)
+    barycentric = np.stack([u, v - u], axis=1)
+    corners = thing.vertices[thing.faces[face]]
+    points = corners[:, 0] + u[:, None] * (corners[:, 1] - corners[:, 0]) + (v - u)[:, None] * (corners[:, 2] - corners[:, 0])
+    return points, object_colors([thing], np.zeros(count, np.intp), face, barycentric)
 
 
 def test_a_small_mesh_is_read_as_it_is():
@@ -63,7 +68,8 @@ def test_slots_and_the_two_sides_of_a_sheet_keep_their_colours():
     below = board.face_normals[:, 2] < -0.5
     fine = SceneObject(
         label="board", room=0, support="floor", vertices=np.asarray(board.vertices), faces=np.asarray(board.faces, np.int32),
-        face_slot=below.astype(np.int32), slots=("top", "bottom"), slot_colors=np.array([[0.8, 0.1, 0.1], [0.1, 0.1, 0.8]], np.float32),
+        face_slot=below.astype(np.int32), slots=("top", "bottom"),
+        slot_colors=np.array([[0.8, 0.1, 0.1], [0.1, 0.1, 0.8]], np.float32),
         T_world_object=np.eye(4), size=np.array([1, 1, 0.004]), emission=np.array([0, 1.5], np.float32),
     )  # fmt: skip
     coarse = trimesh.creation.box(extents=[1, 1, 0.004])
@@ -97,12 +103,15 @@ def test_without_the_package_that_decimates_its_extra_is_named(monkeypatch):
         model_mesh(painted_sphere(2).export(file_type="glb"), label="stool", room=0, most_faces=100, texels=1000)
 
 
+def triangle(corners) -> bytes:
+    return trimesh.Trimesh(np.array(corners), [[0, 1, 2]], process=False).export(file_type="glb")
+
+
 GLB = painted_sphere(1).export(file_type="glb")
 BROKEN = {
     "empty": b"", "text": b"<html>502</html>", "cut": GLB[: len(GLB) // 2], "header only": GLB[:20],
     "no triangles": trimesh.PointCloud(np.eye(3)).export(file_type="glb"),
-    "not finite": trimesh.Trimesh(np.array([[np.nan, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]], process=False).export(file_type="glb"),
-    "no area": trimesh.Trimesh(np.zeros((3, 3)), [[0, 1, 2]], process=False).export(file_type="glb"),
+    "not finite": triangle([[np.nan, 0, 0], [1, 0, 0], [0, 1, 0]]), "no area": triangle(np.zeros((3, 3))),
 }  # fmt: skip
 
 
@@ -119,14 +128,4 @@ def test_distances_from_a_box_are_exact(seed, away):
     axis, sign = rng.integers(3), rng.choice([-1.0, 1.0])
     points = rng.uniform(-0.5, 0.5, (20, 3)) * [0.6, 0.5, 0.4]
     points[:, axis] = sign * ([0.6, 0.5, 0.4][axis] / 2 + away)
-    np.testing.assert_allclose(distances(points, np.asarray(mesh.vertices), np.asarray(mesh.faces)), away, atol=1e-9)
-
-
-def test_points_spread_over_a_surface_by_its_area():
-    mesh = trimesh.creation.box(extents=[2.0, 1.0, 0.5])
-    found = surface_points(np.asarray(mesh.vertices), np.asarray(mesh.faces), 7000)
-    share = np.bincount(found.face, minlength=12) / 7000
-    np.testing.assert_allclose(share, mesh.area_faces / mesh.area, atol=1e-3)
-    np.testing.assert_allclose(found.points.mean(axis=0), 0, atol=5e-3)
-    with pytest.raises(ValueError, match="without any area"):
-        surface_points(np.zeros((3, 3)), np.array([[0, 1, 2]]), 5)
+    np.testing.assert_allclose(surface_distance(points, np.asarray(mesh.vertices), np.asarray(mesh.faces)), away, atol=1e-9)

@@ -40,7 +40,9 @@ def test_the_points_of_the_file_come_to_lie_where_the_model_says(tmp_path):
     in_camera = mesh.vertices * pose.scale @ pose.rotation.T + pose.translation
     wanted = in_camera @ T_WORLD_CAM[:3, :3].T + T_WORLD_CAM[:3, 3]
     np.testing.assert_allclose(*(sorted(np.round(one, 5).tolist()) for one in (thing.vertices, wanted)), atol=2e-5)
-    np.testing.assert_allclose([thing.vertices.min(axis=0), thing.vertices.max(axis=0)], [[1.6, 0.7, 0.3], [2.6, 1.2, 1.1]], atol=1e-6)
+    np.testing.assert_allclose(
+        [thing.vertices.min(axis=0), thing.vertices.max(axis=0)], [[1.6, 0.7, 0.3], [2.6, 1.2, 1.1]], atol=1e-6
+    )
     np.testing.assert_allclose(thing.T_world_object[:3, :3], np.eye(3), atol=1e-6)
     np.testing.assert_allclose(thing.size, [1.0, 0.5, 0.8], atol=1e-6)
 
@@ -80,7 +82,10 @@ def test_the_matrix_of_a_quaternion_turns_as_it_says():
 
 @pytest.mark.parametrize(
     ("kind", "x", "y", "yaw", "size"),
-    [("wardrobe", 2.6, 0.5, math.pi, (1.3, 0.6, 2.0)), ("sofa", 2.4, 3.3, 0.0, (2.0, 0.9, 0.85)), ("chair", 2.9, 2.2, 0.7, (0.45, 0.5, 0.95))],
+    [
+        ("wardrobe", 2.6, 0.5, math.pi, (1.3, 0.6, 2.0)), ("sofa", 2.4, 3.3, 0.0, (2.0, 0.9, 0.85)),
+        ("chair", 2.9, 2.2, 0.7, (0.45, 0.5, 0.95)),
+    ],
 )  # fmt: skip
 def test_a_shape_without_a_pose_is_placed_where_it_is_seen(kind, x, y, yaw, size):
     """The shape is that of the thing seen, at another scale, yaw and place, as a model has it."""

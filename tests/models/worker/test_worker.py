@@ -1,4 +1,4 @@
-"""A worker is a process of another interpreter: what it answers, how its faults are told apart, and that nothing of it is left."""
+"""A worker is a process of another interpreter: what it answers, how its faults are told apart, that nothing of it is left."""
 
 import io
 import json
@@ -107,32 +107,50 @@ def test_a_launcher_may_greet_before_python_starts(tmp_path, temporary):
     worker.close()
 
 
+def at_start(code: str) -> str:
+    """The script with this code in place of its first import of a package."""
+    return changed("import numpy as np", code)
+
+
+def in_load(code: str) -> str:
+    return changed("return options.get", f"{code}; return options.get")
+
+
+def in_answer(code: str) -> str:
+    """The script with this code before it answers."""
+    return changed("return {\n            ", f"{code}\n        return {{")
+
+
 DIES = "import signal; os.kill(os.getpid(), signal.SIGKILL)"
-FAULTS = {
-    "missing package": (changed("import numpy as np", "import sam3d"), ServiceError, "describe.. raised ModuleNotFoundError: .*'sam3d'"),
-    "missing package in load": (changed("return options.get", "import sam3d; return options.get"), ServiceError, "load.. raised Mod"),
-    "no such function": (changed("def load", "def lade"), ServiceError, "raised AttributeError.*load"),
-    "syntax": (changed("def load(options):", "def load(options"), ServiceError, "raised SyntaxError"),
-    "no name": (changed('"sum"', "None"), ServiceError, "describe.. gave .*would be right"),
-    "exits at start": (changed("import numpy as np", "print('no GPU'); os._exit(3)"), ServiceError, "exit code 3 in describe.*\n  no GPU"),
-    "exits by sys.exit": (changed("import numpy as np", "import sys; sys.exit('no GPU')"), ServiceError, "SystemExit: no GPU"),
-    "killed at start": (changed("return options.get", f"{DIES}; return options.get"), TransientError, "ended by SIGKILL in load"),
-    "dies": (changed("return {\n            ", f"{DIES}\n        return {{"), TransientError, "ended by SIGKILL in answer"),
-    "exits": (changed("return {\n            ", "print('torn'); os._exit(7)\n        return {"), TransientError, "exit code 7 in answer.*\n  torn"),
-    "hangs": (changed("return {\n            ", "import time; time.sleep(60)\n        return {"), TransientError, "not answered within 1 s in ans"),
-    "out of memory": (changed("return {\n            ", "raise MemoryError('GPU')\n        return {"), TransientError, "ran out of memory: .*GPU"),
-    "raises": (changed("arrays[\"x\"].sum()", "arrays[\"y\"].sum()"), ServiceError, "answer.. raised KeyError: 'y'.*\n.*KeyError"),
-    "no JSON": (changed('request["say"]', "{1, 2}"), ServiceError, "raised TypeError: set of the answer is neither"),
-}  # fmt: skip
+SLEEPS = "import time; time.sleep(60)"
+LASTING = {
+    "missing package": (at_start("import sam3d"), "describe.. raised ModuleNotFoundError: .*'sam3d'"),
+    "missing package in load": (in_load("import sam3d"), "load.. raised ModuleNotFoundError: .*'sam3d'"),
+    "no such function": (changed("def load", "def lade"), "raised AttributeError.*load"),
+    "syntax": (changed("def load(options):", "def load(options"), "raised SyntaxError"),
+    "no name": (changed('"sum"', "None"), "describe.. gave .*would be right"),
+    "exits at start": (at_start("print('no GPU'); os._exit(3)"), "exit code 3 in describe.*\n  no GPU"),
+    "exits by sys.exit": (at_start("import sys; sys.exit('no GPU')"), "SystemExit: no GPU"),
+    "raises": (changed('arrays["x"].sum()', 'arrays["y"].sum()'), "answer.. raised KeyError: 'y'.*\n.*KeyError"),
+    "no JSON": (changed('request["say"]', "{1, 2}"), "raised TypeError: set of the answer is neither"),
+}
+PASSING = {
+    "killed at start": (in_load(DIES), "ended by SIGKILL in load"),
+    "dies": (in_answer(DIES), "ended by SIGKILL in answer"),
+    "exits": (in_answer("print('torn'); os._exit(7)"), "exit code 7 in answer.*\n  torn"),
+    "hangs": (in_answer(SLEEPS), "not answered within 1 s in answer"),
+    "hangs with a child": (in_answer(f"os.system('sleep 60'); {SLEEPS}"), "not answered within 1 s in answer"),
+    "out of memory": (in_answer("raise MemoryError('GPU')"), "ran out of memory: .*GPU"),
+}
 
 
-@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("fault", [*LASTING, *PASSING])
 def test_a_fault_is_one_clear_error_and_leaves_nothing(tmp_path, temporary, fault):
-    text, kind, said = FAULTS[fault]
-    worker = worker_of(script(tmp_path, text), request=1.0 if fault == "hangs" else 30.0)
-    with pytest.raises(kind, match=rf"(?s)^the worker model\.py of .*{said}"):
+    text, said = (LASTING | PASSING)[fault]
+    worker = worker_of(script(tmp_path, text), request=1.0 if "hangs" in fault else 30.0)
+    with pytest.raises(TransientError if fault in PASSING else ServiceError, match=rf"(?s)^the worker model\.py of .*{said}"):
         worker.ask(HELLO, X)
-    if kind is TransientError:  # its process is gone before it is asked again
+    if fault in PASSING:  # its process is gone before it is asked again
         assert list(temporary.iterdir()) == [] and not has_children()
     worker.close()
     assert list(temporary.iterdir()) == [] and not has_children()
@@ -141,7 +159,11 @@ def test_a_fault_is_one_clear_error_and_leaves_nothing(tmp_path, temporary, faul
 LAUNCHERS = {
     "gone": (None, ServiceError, "cannot be started: .*No such file"),
     "not a program": ("", ServiceError, "cannot be started: "),
-    "fails": ("#!/bin/sh\necho no such environment >&2; exit 1\n", ServiceError, "exit code 1 in describe.*\n  no such environment"),
+    "fails": (
+        "#!/bin/sh\necho no such environment >&2; exit 1\n",
+        ServiceError,
+        "exit code 1 in describe.*\n  no such environment",
+    ),
     "echoes": ("#!/bin/sh\nexec cat\n", ServiceError, "describe.. gave None"),
     "prints garbage for ever": ("#!/bin/sh\nexec yes garbage\n", TransientError, "it prints without end.*\n  garbage"),
     "says nothing": ("#!/bin/sh\nsleep 60\n", TransientError, "not answered within 1 s in describe"),
@@ -164,7 +186,7 @@ def test_an_interpreter_that_is_none_is_one_clear_error(tmp_path, temporary, fau
 
 def test_it_is_started_again_and_gives_up_after_three_deaths_in_succession(tmp_path, temporary):
     """The first process dies at its second request, all others at their first one that is called "die"."""
-    text = changed("return {\n            ", f"if request['say'] == 'die': {DIES}\n        return {{")
+    text = in_answer(f"if request['say'] == 'die': {DIES}")
     worker = worker_of(script(tmp_path, text))
     first = values(worker.ask(HELLO, X))["pid"]
     for _ in range(2):
@@ -190,7 +212,7 @@ def test_an_error_of_the_script_does_not_end_its_process(tmp_path, temporary):
 
 
 def test_a_refusal_is_an_answer(tmp_path, temporary):
-    worker = worker_of(script(tmp_path, changed("return {\n            ", 'return {"refused": "an empty mask"}\n        return {')))
+    worker = worker_of(script(tmp_path, in_answer('return {"refused": "an empty mask"}')))
     answer = worker.ask(HELLO, X)
     assert (answer.refusal, dict(answer.files), answer.model_version) == ("an empty mask", {}, "1.0")
     worker.close()
@@ -207,15 +229,16 @@ def test_numbers_that_are_not_finite_travel(tmp_path, temporary):
 
 def test_the_parents_own_packages_do_not_reach_the_other_interpreter(tmp_path, temporary, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(tmp_path / "of_the_parent"))
-    text = changed('"said": request["say"]', '"said": [os.environ.get("PYTHONPATH"), os.environ["PATH"].split(":")[0], os.getcwd()]')
+    text = changed(
+        '"said": request["say"]', '"said": [os.environ.get("PYTHONPATH"), os.environ["PATH"].split(":")[0], os.getcwd()]'
+    )
     worker = worker_of(script(tmp_path, text))
     assert values(worker.ask(HELLO, X))["said"] == [None, os.path.dirname(PYTHON), os.getcwd()]
     worker.close()
 
 
 def test_ctrl_c_ends_the_process_of_a_request_under_way(tmp_path, temporary):
-    text = changed("return {\n            ", "import time; time.sleep(60)\n        return {")
-    worker = worker_of(script(tmp_path, text))
+    worker = worker_of(script(tmp_path, in_answer(SLEEPS)))
     worker.describe()
 
     def interrupt(*_):
@@ -244,14 +267,16 @@ END
 ASKS = 'worker.ask({"say": "x"}, {"x": np.zeros(3)})'
 
 
-@pytest.mark.parametrize(
-    ("end", "stop"),
-    [("time.sleep(60)", signal.SIGKILL), (ASKS, signal.SIGKILL), (ASKS, signal.SIGTERM), ("sys.exit()", None), ("1 / 0", None)],
-    ids=["killed", "killed in a request", "terminated", "ended without close", "an error without close"],
-)
-def test_it_ends_with_its_parent(tmp_path, temporary, end, stop):
-    sleeps = changed("return {\n            ", "print('begun', flush=True); import time; time.sleep(60)\n        return {")
-    path = script(tmp_path, sleeps)
+ENDS = {
+    "killed in a request": (ASKS, signal.SIGKILL), "killed": ("time.sleep(60)", signal.SIGKILL),
+    "terminated": (ASKS, signal.SIGTERM), "without close": ("sys.exit()", None), "by an error": ("1 / 0", None),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("way", [next(iter(ENDS)), *(pytest.param(way, marks=pytest.mark.slow) for way in list(ENDS)[1:])])
+def test_it_ends_with_its_parent(tmp_path, temporary, way):
+    end, stop = ENDS[way]
+    path = script(tmp_path, in_answer(f"print('begun', flush=True); {SLEEPS}"))
     env = os.environ | {"TMPDIR": str(temporary), "PYTHONPATH": str(pathlib.Path(wm.__file__).parents[1])}
     command = [PYTHON, "-c", PARENT.replace("END", end), str(path)]
     with subprocess.Popen(command, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as parent:

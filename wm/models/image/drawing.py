@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import UInt8
 
+from wm.color import to_bytes
 from wm.models.image.registration import ImageCanvas, placed
 from wm.models.prompt_files import Prompts
-from wm.synth.attempt import as_bytes
 from wm.synth.backends import ImageRequest
 
 
@@ -43,17 +43,19 @@ def drawing_of(request: ImageRequest, canvas: ImageCanvas, prompts: Prompts) -> 
     Raises:
       PromptError: a prompt of the user's cannot be filled in.
     """
-    told = {
-        "theme": request.theme,
-        "room": request.room,
-        "sights": list(request.sights),
-        "reference": request.reference is not None,
-    }
-    if request.task == "paint":
-        told["objects"] = request.condition.objects
     return DrawingRequest(
         canvas=canvas,
-        prompt=prompts.write(request.task, **told),
-        guide=placed(as_bytes(request.condition.rgb), canvas),
-        reference=None if request.reference is None else as_bytes(request.reference),
+        prompt=_prompt(request, prompts),
+        guide=placed(to_bytes(request.condition.rgb), canvas),
+        reference=None if request.reference is None else to_bytes(request.reference),
     )
+
+
+def _prompt(request: ImageRequest, prompts: Prompts) -> str:
+    """Our own prompt for the model; that of the method where the request does not say what it was written from."""
+    if not request.theme:
+        return request.prompt
+    told: dict[str, Any] = {"theme": request.theme, "room": request.room, "sights": list(request.sights)}
+    if request.task == "paint":
+        told["objects"] = request.condition.objects
+    return prompts.write(request.task, reference=request.reference is not None, **told)

@@ -10,11 +10,12 @@ import dataclasses
 import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial import KDTree
+from trimesh.triangles import points_to_barycentric
 
 from wm.geometry.mesh.object_colors import object_colors, texture_colors
 from wm.geometry.mesh.scene_mesh import face_crosses
-from wm.models.reconstruction.surface_points import points_at, surface_points
-from wm.types import SceneObject, Texture
+from wm.geometry.rays.surface_points import surface_points
+from wm.types import Mesh, SceneObject, Texture
 
 _NEAREST = 3
 _TURNED = 0.1
@@ -54,14 +55,20 @@ def _grid(count: int, side: int) -> tuple[np.ndarray, np.ndarray]:
     return np.repeat(np.arange(count), side * side), np.tile(block, (count, 1))
 
 
-def _looked_up(fine: SceneObject, corners: np.ndarray, face: np.ndarray, barycentric: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _looked_up(
+    fine: SceneObject, corners: np.ndarray, face: np.ndarray, barycentric: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """(colours [n, 3] in [0, 1], slots [n]) of the fine object at points of the coarse mesh's faces."""
-    found = surface_points(fine.vertices, fine.faces, max(_DENSITY * len(face), len(fine.faces)))
-    rgb = object_colors([fine], np.zeros(len(found.face), np.intp), found.face, found.barycentric)
+    found = surface_points(Mesh.from_triangles(fine.vertices, fine.faces), max(_DENSITY * len(face), len(fine.faces)))
+    where = points_to_barycentric(fine.vertices[fine.faces][found.face], found.position)
+    rgb = object_colors([fine], np.zeros(len(found.face), np.intp), found.face, where[:, 1:])
     reach = _TURNED * float(np.ptp(fine.vertices, axis=0).max()) / 2
-    theirs = np.concatenate([found.points, reach * _normals(fine.vertices[fine.faces])[found.face]], axis=1)
-    ours = np.concatenate([points_at(corners, face, barycentric), reach * _normals(corners)[face]], axis=1)
+    theirs = np.concatenate([found.position, reach * found.normal], axis=1)
+    u, v = barycentric[:, :1], barycentric[:, 1:]
+    points = (1 - u - v) * corners[face, 0] + u * corners[face, 1] + v * corners[face, 2]
+    ours = np.concatenate([points, reach * _normals(corners)[face]], axis=1)
     _, near = KDTree(theirs).query(ours, k=_NEAREST)
+    near = np.asarray(near)
     return rgb[near].mean(axis=1), fine.face_slot[found.face[near[:, 0]]]
 
 

@@ -1,7 +1,7 @@
 """A script to begin one of your own from (docs/workers.md): the box around the points that an image shows, without any weights.
 
-It needs NumPy and trimesh. The box is upright, faces the camera, and is as deep as it is wide if less of its depth is seen; it has
-the mean colour of its pixels. Option: `pose=no` leaves the pose out, as models do that know only the shape.
+It needs NumPy and trimesh. The box is upright, faces the camera, and is as deep as it is wide if less of its depth is seen;
+it has the mean colour of its pixels. Option: `pose=no` leaves the pose out, as models do that know only the shape.
 """
 
 import numpy as np
@@ -28,10 +28,10 @@ def answer(model, request, arrays):
     low, high = np.quantile(points @ axes, [0.002, 0.998], axis=0)
     low[2] = min(low[2], high[2] - (high[0] - low[0]))  # the back, away from the camera
     mesh = trimesh.creation.box(extents=np.maximum(high - low, 0.01))
-    mesh.visual.vertex_colors = arrays["rgb"][arrays["mask"]].mean(axis=0).astype(np.uint8)
-    result = {"mesh.glb": mesh.export(file_type="glb")}
-    if model.get("pose") != "no":
-        result.update(scale=1.0, rotation=axes, translation=axes @ (low + high) / 2)
+    color = np.append(arrays["rgb"][arrays["mask"]].mean(axis=0), 255).astype(np.uint8)
+    mesh = trimesh.Trimesh(mesh.vertices, mesh.faces, vertex_colors=np.tile(color, (len(mesh.vertices), 1)))
+    pose = {"scale": 1.0, "rotation": axes, "translation": axes @ (low + high) / 2} if model.get("pose") != "no" else {}
+    result = {"mesh.glb": mesh.export(file_type="glb"), **pose}
     return result
 
 

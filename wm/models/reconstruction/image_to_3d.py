@@ -10,8 +10,6 @@ docs/workers.md says what a worker is asked and answers. The light of the image 
 """
 
 import dataclasses
-import json
-import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -20,13 +18,12 @@ import shapely
 from jaxtyping import Float
 
 from wm.bounds import number, setting
-from wm.errors import InputError
 from wm.geometry.placement.upright_box import box_of
 from wm.geometry.plan.site import Site
 from wm.geometry.rays.pinhole import unproject_depth
 from wm.models.reconstruction.model_mesh import model_mesh
 from wm.models.reconstruction.pose import ModelPose, fitted, posed
-from wm.models.reconstruction.surface_points import distances
+from wm.models.reconstruction.surface_distance import surface_distance
 from wm.models.worker.asking import WorkerModel, answer_arrays, answer_values
 from wm.models.worker.settings import WorkerSettings
 from wm.services.faults import RefusedError, ServiceError
@@ -39,6 +36,7 @@ from wm.synth.lifting.world_mesh import as_reconstruction
 from wm.types import SceneObject
 
 VERSION = "1"
+SERVED = True
 MESH = "mesh.glb"
 """The file of an answer that holds the mesh."""
 _POINTS = 2000
@@ -54,7 +52,6 @@ class ImageTo3DSettings(WorkerSettings):
     """What every image-to-3D backend has."""
 
     checkpoint: str = setting("", "Weights that the script loads: a file, a folder, or a name of the hub.")
-    options: str = setting("", "More for the script, such as 'steps=25 device=cuda:1'.")
     faces: int = number(10_000, 100, 5_000_000, "Faces above which a mesh is decimated.")
     texels: int = number(360_000, 1000, 50_000_000, "Pixels of the texture of a decimated mesh, about.")
     tolerance: float = number(0.12, 0.001, 10, "Median distance of the observed points up to which a mesh fits them.", unit="m")
@@ -148,22 +145,7 @@ class ImageTo3D:
 
 def make(settings: ImageTo3DSettings, context: SceneContext | None = None) -> ImageTo3D:
     """The backend of a script of the user's own. It does not use the scene."""
-    return ImageTo3D(settings, WorkerModel(settings, script_options(settings)))
-
-
-def script_options(settings: ImageTo3DSettings, **more: Any) -> dict[str, Any]:
-    """What a script is told when it starts: the checkpoint, and each `key=value` of the options, a number where it reads as one.
-
-    Raises:
-      InputError: an option is not of that form.
-    """
-    options: dict[str, Any] = {"checkpoint": settings.checkpoint, **more}
-    for word in shlex.split(settings.options):
-        key, given, value = word.partition("=")
-        if not (key and given):
-            raise InputError(f"{settings.backend}: options={settings.options!r} must be 'key=value key=value'; {word!r} is not")
-        options[key] = _value(value)
-    return options
+    return ImageTo3D(settings, WorkerModel(settings, {"checkpoint": settings.checkpoint}))
 
 
 def question(label: str, seen: Observation, seed: int) -> tuple[dict[str, Any], Mapping[str, np.ndarray]]:
@@ -211,15 +193,8 @@ def told_pose(answer: ServiceAnswer) -> ModelPose | None:
 
 def _residual(thing: SceneObject | None, points: np.ndarray) -> float:
     """Median distance of points from a thing, metres; infinite for none."""
-    return np.inf if thing is None else float(np.median(distances(points, thing.vertices, thing.faces)))
+    return np.inf if thing is None else float(np.median(surface_distance(points, thing.vertices, thing.faces)))
 
 
 def _seed(seed: int, attempt: int) -> int:
     return seed if attempt == 0 else int(np.random.SeedSequence([seed, attempt, 0x3D]).generate_state(1)[0])
-
-
-def _value(text: str) -> Any:
-    try:
-        return json.loads(text)
-    except ValueError:
-        return text

@@ -1,4 +1,4 @@
-"""The mesh file that an image-to-3D model answers with, as an object: with few enough faces, its colours in slots or a texture."""
+"""The mesh file that an image-to-3D model answers with, as an object with few enough faces, its colours in slots or a texture."""
 
 import importlib
 import pathlib

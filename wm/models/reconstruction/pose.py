@@ -143,7 +143,8 @@ def _fit_yaw(scene: RayScene, size: float, yaw: float, target: _Target) -> _Fit:
 
 def _drawn(scene: RayScene, yaw: float, scale: float, place: np.ndarray, camera: Camera) -> Float[np.ndarray, "h w"]:
     """[h, w] depth of the object in its own units: the camera is moved in place of the object."""
-    T_world_object = UprightBox(*place.tolist(), yaw, 1.0, 1.0, 1.0).transform
+    x, y, z = place.tolist()
+    T_world_object = UprightBox(x, y, z, yaw, 1.0, 1.0, 1.0).transform
     T = np.asarray(camera.T_cam_world, np.float64) @ T_world_object
     T[:3, 3] /= scale
     return cast(scene, dataclasses.replace(camera, T_cam_world=T)).depth

@@ -10,11 +10,12 @@ import os
 import pathlib
 
 from wm.bounds import setting
-from wm.models.reconstruction.image_to_3d import ImageTo3D, ImageTo3DSettings, script_options
+from wm.models.reconstruction.image_to_3d import ImageTo3D, ImageTo3DSettings
 from wm.models.worker.asking import WorkerModel
 from wm.synth.backends import SceneContext
 
 VERSION = "1"
+SERVED = True
 _SCRIPT = pathlib.Path(__file__).with_name("sam3d_objects_worker.py")
 
 
@@ -28,5 +29,5 @@ class Settings(ImageTo3DSettings):
 
 def make(settings: Settings, context: SceneContext | None = None) -> ImageTo3D:
     """The backend. `checkpoint` is a pipeline.yaml; empty: checkpoints/hf/pipeline.yaml of the repository."""
-    options = script_options(settings, repository=os.path.expanduser(settings.repository))
+    options = {"checkpoint": settings.checkpoint, "repository": os.path.expanduser(settings.repository)}
     return ImageTo3D(settings, WorkerModel(settings, options, _SCRIPT))

@@ -28,14 +28,18 @@ PYTORCH3D = np.diag([-1.0, -1.0, 1.0])
 """From PyTorch3D's camera axes to OpenCV's, and back."""
 
 
+SCRIPT = "-1"
+"""End of the version: changes when this script answers otherwise."""
+
+
 def describe(options):
     """The commit of the clone is the version: the package's own number has not changed since its release."""
     repository = options["repository"]
     if not os.path.isfile(os.path.join(repository, "notebook", "inference.py")):
-        raise FileNotFoundError("repository=%s must be a clone of sam-3d-objects, with notebook/inference.py" % repository)
+        raise FileNotFoundError(f"repository={repository} must be a clone of sam-3d-objects, with notebook/inference.py")
     named = subprocess.run(["git", "-C", repository, "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
     commit = named.stdout.strip()[:12] if named.returncode == 0 else importlib.metadata.version("sam3d_objects")
-    return {"model": "sam-3d-objects", "version": commit + "-1"}
+    return {"model": "sam-3d-objects", "version": commit + SCRIPT}
 
 
 def load(options):

@@ -11,7 +11,7 @@ import numpy as np
 
 from wm.artifacts.digests import content_digest
 from wm.errors import InputError
-from wm.models.worker.settings import WorkerSettings, interpreter, worker_script
+from wm.models.worker.settings import WorkerSettings, interpreter, script_options, worker_script
 from wm.models.worker.worker import ARRAYS, VALUES, ModelWorker, ServedModel, WorkerProgram
 from wm.services.faults import ServiceError
 from wm.services.records import Quote, ServiceAnswer, ServiceRequest
@@ -27,13 +27,14 @@ class WorkerModel:
 
         Args:
           settings: interpreter, script, limits.
-          options: what the script is told when it starts, and every answer depends on: JSON values.
+          options: what the script is told when it starts beside the options in the settings; JSON values. Every answer depends
+            on them.
           shipped: the script that comes with the backend; None for none.
 
         Raises:
           InputError: there is no such script, no such interpreter, or `serves` is not a name and a version.
         """
-        self.settings, self.options = settings, dict(options)
+        self.settings, self.options = settings, {**options, **script_options(settings)}
         self.script = worker_script(settings, shipped)
         self._own_script = "" if self.script == shipped else content_digest(self.script.read_bytes())
         self._declared = _declared(settings)

@@ -162,7 +162,8 @@ def _ended(popen: subprocess.Popen, patience: float) -> int:
 
 
 def _variables(python: str) -> dict[str, str]:
-    """The environment of a worker: the caller's without what is of the caller's interpreter, programs beside its own found first."""
+    """The environment of a worker: the caller's, without what belongs to the caller's interpreter. Programs beside the worker's
+    own interpreter are found first."""
     kept = {name: value for name, value in os.environ.items() if name not in _OURS}
     return kept | {"PATH": os.pathsep.join(filter(None, [os.path.dirname(python), os.environ.get("PATH", "")]))}
 

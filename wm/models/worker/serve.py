@@ -33,6 +33,7 @@ import signal
 import sys
 import threading
 import traceback
+from typing import Any
 
 import numpy as np
 
@@ -72,7 +73,9 @@ class _Worker:
 
     def __init__(self, script, folder):
         self.script, self.folder = script, folder
-        self.module = self.options = self.model = None
+        self.module: Any = None
+        self.options: Any = None
+        self.model: Any = None
 
     def reply(self, asked):
         """The line that answers one line. No error of the script ends the process."""
@@ -87,7 +90,7 @@ class _Worker:
     def _describe(self, asked):
         self.options = asked["options"]
         sys.path.insert(0, os.path.dirname(os.path.abspath(self.script)))  # as if it was run by itself
-        spec = importlib.util.spec_from_file_location("worker_script", self.script)
+        spec: Any = importlib.util.spec_from_file_location("worker_script", self.script)
         self.module = importlib.util.module_from_spec(spec)
         sys.modules["worker_script"] = self.module
         spec.loader.exec_module(self.module)
@@ -107,7 +110,7 @@ class _Worker:
 
     def _written(self, result):
         """The arrays and bytes of an answer as files, the rest as it is."""
-        arrays = {name: value for name, value in result.items() if isinstance(value, np.ndarray) and value.ndim}
+        arrays: Any = {name: value for name, value in result.items() if isinstance(value, np.ndarray) and value.ndim}
         content = {name: value for name, value in result.items() if isinstance(value, (bytes, bytearray))}
         for name, value in content.items():
             with open(os.path.join(self.folder, os.path.basename(name)), "wb") as file:
@@ -127,7 +130,7 @@ def _plain(value):
     """NumPy's numbers as JSON values."""
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
-    raise TypeError("%s of the answer is neither a JSON value nor an array nor bytes" % type(value).__name__)
+    raise TypeError(f"{type(value).__name__} of the answer is neither a JSON value nor an array nor bytes")
 
 
 if __name__ == "__main__":

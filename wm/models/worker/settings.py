@@ -1,9 +1,12 @@
 """Which interpreter runs a model, which script serves it, and how long it may take."""
 
 import dataclasses
+import json
 import os
 import pathlib
+import shlex
 import shutil
+from typing import Any
 
 from wm.bounds import number, setting
 from wm.errors import InputError
@@ -16,6 +19,7 @@ class WorkerSettings(BackendSettings):
 
     python: str = setting("", "Interpreter with the model's packages, such as /opt/conda/envs/NAME/bin/python.", **BESIDE)
     script: str = setting("", "Python file that serves the model (docs/workers.md); empty: the one that comes with the backend.")
+    options: str = setting("", "More for the script, such as 'steps=25 device=cuda:1'.")
     serves: str = setting(
         "", "Name and version of the model, 'NAME VERSION', to find kept answers without starting it; empty: it is asked."
     )
@@ -56,3 +60,25 @@ def interpreter(settings: WorkerSettings) -> str:
     if found is None:
         raise InputError(f"{settings.backend}: python={settings.python} is no program that can be run")
     return os.path.abspath(found)  # and not its real path: a virtual environment is told by the link
+
+
+def script_options(settings: WorkerSettings) -> dict[str, Any]:
+    """The options in the settings by name: JSON values, or text where a value reads as none.
+
+    Raises:
+      InputError: one is not of the form key=value.
+    """
+    options: dict[str, Any] = {}
+    for word in shlex.split(settings.options):
+        key, given, value = word.partition("=")
+        if not (key and given):
+            raise InputError(f"{settings.backend}: options={settings.options!r} must be 'key=value key=value'; {word!r} is not")
+        options[key] = _value(value)
+    return options
+
+
+def _value(text: str) -> Any:
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text

@@ -1,8 +1,9 @@
 """A model in another interpreter: its process is started when it is needed, and again when it has died or hangs.
 
     describe, load   an error of the script, or an exit, ends the run with one clear error: no retry installs a package
-    answer           a process that died, hangs, or ran out of memory is ended, and the request may be sent again (TransientError),
-                     _TRIES times in all; then, and for an error of the script at once, one clear error (ServiceError)
+    answer           a process that died, hangs, or ran out of memory is ended, and the request may be sent again
+                     (TransientError), _TRIES times in all; then, and for an error of the script at once, one clear error
+                     (ServiceError)
 
 Each error ends with the last lines that the process has printed.
 """
@@ -111,10 +112,10 @@ class ModelWorker:
             raise self._gave_up(f"{program.python} cannot be started: {error}") from error
         reply = self._call("describe", {"options": dict(program.options)}, program.start_seconds)
         told = reply.get("done")
-        named = [told.get(name) for name in ("model", "version")] if isinstance(told, dict) else []
-        if not named or not all(isinstance(name, str) and name for name in named):
+        model, version = (told.get(name) if isinstance(told, dict) else None for name in ("model", "version"))
+        if not (isinstance(model, str) and isinstance(version, str) and model and version):
             raise self._gave_up(f'describe() gave {told!r}; {{"model": name, "version": text}} would be right')
-        self._served = ServedModel(*named)
+        self._served = ServedModel(model, version)
 
     def _load(self) -> None:
         if not self._loaded:
