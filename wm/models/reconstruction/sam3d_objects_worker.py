@@ -47,6 +47,8 @@ def load(options):
     repository = options["repository"]
     sys.path.insert(0, os.path.join(repository, "notebook"))
     config = options["checkpoint"] or os.path.join(repository, "checkpoints", "hf", "pipeline.yaml")
+    if not os.path.isfile(config):
+        raise FileNotFoundError(f"checkpoint={config} must be the pipeline.yaml of the weights (doc/setup.md of sam-3d-objects)")
     return importlib.import_module("inference").Inference(config, compile=bool(options.get("compile", False)))
 
 
