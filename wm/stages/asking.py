@@ -96,6 +96,8 @@ def expected(config: RunConfig, services: Services) -> Iterator[Expected]:
         each = dict.fromkeys(("image", "depth", "segmentation"), DRAWINGS_A_ROOM) | {"reconstruction": PIECES_A_ROOM}
         used = getattr(backend_module(config.objects.backend), "USES", ())
         counts += [("furnish", group, rooms * each[group]) for group in used if group in each]
+        if "segmentation" in used and "language" in getattr(backend_module(config.segmentation.backend), "USES", ()):
+            counts.append(("furnish", "language", rooms * DRAWINGS_A_ROOM))  # names what is looked for
     counts += [("paint", "image", images)] + [("paint", "depth", images)] * config.verify.enabled
     for stage, group, requests in counts:
         quote = _quote(group, getattr(config, group), services)

@@ -17,13 +17,10 @@ pytest.importorskip("transformers")
 
 def config(folder, name, *more):
     checkpoint = tiny.checkpoint("sam3_tracker" if name == "sam3_clicks" else "sam3")
-    return load_config(
-        [
-            "+scene=scandinavian", "preset=draft", "scene.rooms=[bedroom]", "until=furnish", "objects=lifted",
-            "image.texel_size=0.2", "objects.image_width=64", "objects.image_height=48", f"segmentation={name}", f"segmentation.model={checkpoint}",
-            "segmentation.device=cpu", f"answers.folder={folder / 'answers'}", *more,
-        ]
-    )  # fmt: skip
+    small = ["objects.image_width=64", "objects.image_height=48", "image.texel_size=0.2", "until=furnish"]
+    model = [f"segmentation={name}", f"segmentation.model={checkpoint}", "segmentation.device=cpu"]
+    scene = ["+scene=scandinavian", "preset=draft", "scene.rooms=[bedroom]", "objects=lifted"]
+    return load_config([*scene, *small, *model, f"answers.folder={folder / 'answers'}", *more])
 
 
 def mark(folder, label, clicks):

@@ -94,6 +94,15 @@ def test_position_and_sign_of_a_click_matter_and_an_image_is_encoded_once():
     assert backend.tracker.encoded == 6 and len(backend.tracker._embedded) == 4
 
 
+@pytest.mark.parametrize("dtype", ["bfloat16", "float16"])
+def test_half_precision_gives_nearly_the_same_mask(backend, dtype):
+    """Of two clicks, which give one mask: of one, random weights choose between three by a hair."""
+    clicks = [Click(20.0, 10.0), Click(80.0, 30.0, on=False)]
+    half = sam3_clicks.make(settings(dtype=dtype)).mask_of(pixels(IMAGE.rgb), clicks)
+    whole = backend.mask_of(pixels(IMAGE.rgb), clicks)
+    assert (half.mask != whole.mask).mean() < 0.1 and half.score == pytest.approx(whole.score, abs=0.01)
+
+
 def test_images_without_clicks_are_one_error_that_says_what_to_do(tmp_path, backend):
     drawn = [(IMAGE, place(tmp_path, f"room{k}/furnish{n}")) for k in range(3) for n in range(2)]
     mark(tmp_path, SOFA, name="room0/furnish0")

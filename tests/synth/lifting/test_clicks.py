@@ -57,6 +57,18 @@ def test_clicks_at_another_image_hold_no_longer(tmp_path):
     assert load_clicks(tmp_path, DRAWING) is not None
 
 
+def test_marks_in_a_former_image_are_copied_before_they_are_overwritten(tmp_path):
+    file = tmp_path / clicks_file(DRAWING.name)
+    save_clicks(tmp_path, ClickedImage(DRAWING, (SOFA,)))
+    save_clicks(tmp_path, ClickedImage(DRAWING, (SOFA, SOFA)))
+    assert list(file.parent.iterdir()) == [file]
+    former = file.read_bytes()
+    save_clicks(tmp_path, ClickedImage(dataclasses.replace(DRAWING, digest="1" * 20)))
+    copies = [other for other in file.parent.iterdir() if other != file]
+    assert [copy.read_bytes() for copy in copies] == [former] and copies[0].name.startswith("furnish0.json.before-")
+    assert len(clicks_state(tmp_path)) == 1
+
+
 @pytest.mark.parametrize(
     "wrong",
     [

@@ -29,6 +29,7 @@ from wm.services.records import ServiceAnswer
 from wm.synth.backends import SceneContext
 
 VERSION = "1"
+SERVED = True
 _EXTRA = "gemini"
 _KEY = "GEMINI_API_KEY"
 _SIZES = {"1K": 1, "2K": 2, "4K": 4}

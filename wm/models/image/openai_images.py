@@ -28,6 +28,7 @@ from wm.services.records import ServiceAnswer
 from wm.synth.backends import SceneContext
 
 VERSION = "1"
+SERVED = True
 _EXTRA = "openai"
 _KEY = "OPENAI_API_KEY"
 _LIMITS = SizeLimits(step=16, edge=3840, low=655_360, high=8_294_400, widest=3.0)

@@ -77,5 +77,6 @@ def _prompt(model: Any, shape: tuple[int, ...], clicks: Sequence[Click]) -> tupl
     scale = model.config.vision_config.image_size / np.array([shape[1], shape[0]], np.float64)
     points = np.array([[click.x, click.y] for click in clicks], np.float64) * scale - 0.5
     signs = [int(click.on) for click in clicks]
-    as_points = torch.tensor(points, dtype=model.dtype, device=model.device)[None, None]
+    # not of the model's type: bfloat16 has steps of 4 pixels there, and the model converts them once they are in [-1, 1]
+    as_points = torch.tensor(points, dtype=torch.float32, device=model.device)[None, None]
     return as_points, torch.tensor(signs, dtype=torch.int64, device=model.device)[None, None]

@@ -87,7 +87,8 @@ def load_clicks(folder: pathlib.Path, drawing: KeptDrawing) -> ClickedImage | No
 
 
 def save_clicks(folder: pathlib.Path, image: ClickedImage) -> None:
-    """Writes what is marked in a drawing, whole or not at all.
+    """Writes what is marked in a drawing, whole or not at all. What was marked in a former image of this name is first copied
+    beside it, as `furnish0.json.before-*`.
 
     Raises:
       OSError: the folder cannot be written, or the disk is full.
@@ -97,7 +98,9 @@ def save_clicks(folder: pathlib.Path, image: ClickedImage) -> None:
     told = {"name": drawing.name, "width": drawing.width, "height": drawing.height, "digest": drawing.digest}
     things = [thing_as_json(thing) for thing in image.things]
     text = json_text({"version": FORMAT, "image": told, "finished": image.finished, "instances": things})
-    write_atomically(confined(folder, clicks_file(drawing.name), replaced=True), text)
+    path = confined(folder, clicks_file(drawing.name), replaced=True)
+    _keep_former(path, drawing)
+    write_atomically(path, text)
 
 
 def thing_as_json(thing: ClickedThing) -> dict[str, Any]:
@@ -147,6 +150,18 @@ def clicks_state(folder: pathlib.Path) -> list[list[str]]:
     """Name and digest of each file of clicks in a run folder."""
     files = sorted((folder / FOLDER).rglob("*.json")) if (folder / FOLDER).is_dir() else []
     return [[file.relative_to(folder).as_posix(), digest(file.read_bytes())] for file in files if file.is_file()]
+
+
+def _keep_former(path: pathlib.Path, drawing: KeptDrawing) -> None:
+    if not path.is_file() or path.is_symlink():
+        return
+    former = path.read_bytes()
+    try:
+        same = json.loads(former)["image"]["digest"] == drawing.digest
+    except (ValueError, KeyError, TypeError, RecursionError):
+        same = False
+    if not same:
+        write_atomically(path.with_name(f"{path.name}.before-{digest(former)[:8]}"), former)
 
 
 def _click(click: Any, drawing: KeptDrawing) -> Click:
