@@ -98,6 +98,18 @@ def test_what_libraries_print_and_read_does_not_disturb(tmp_path, temporary):
     assert {"native code prints too", "a child prints"} <= set(log.read_text().splitlines())
 
 
+def test_no_file_beside_the_scripts_hides_a_package(tmp_path, temporary):
+    """Of the environment: `fractions` beside the script, `folder` beside serve.py. What only the script's folder has is found."""
+    (tmp_path / "fractions.py").write_text("hidden = True\n")
+    (tmp_path / "beside.py").write_text("found = True\n")
+    text = changed("import os", "import os, beside, fractions, importlib.util")
+    told = '[beside.found, hasattr(fractions, "hidden"), importlib.util.find_spec("folder")]'
+    text = changed('request["say"]', told, text)
+    worker = worker_of(script(tmp_path, text))
+    assert values(worker.ask(HELLO, X))["said"] == [True, False, None]
+    worker.close()
+
+
 def test_a_launcher_may_greet_before_python_starts(tmp_path, temporary):
     launcher = tmp_path / "python"
     launcher.write_text(f'#!/bin/sh\necho "Welcome to conda"\necho "[1, 2]"\nexec {PYTHON} "$@"\n')

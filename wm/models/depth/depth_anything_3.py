@@ -4,7 +4,7 @@
     DA3METRIC-LARGE  depth in metres for a camera whose focal length is 300 pixels: z = focal * output / 300, where focal is that
                      of the camera in pixels of the output
 
-The script that serves it was written from its source (commit 2c21ea8) and has not been run: its weights were not at hand. What
+The script that serves it was written from its source (commit 2c21ea8) and has not been run with its weights. What
 wm does with its answers is tested with other workers. With `script` any other depth model is served (docs/workers.md): it must
 answer with depth, not with inverse depth.
 

@@ -1,7 +1,7 @@
 """Serves Depth Anything 3 (docs/workers.md). Run by the interpreter of its environment; nothing of wm is imported.
 
-Written from the source of github.com/ByteDance-Seed/Depth-Anything-3 at commit 2c21ea8, and not run: its weights were not at
-hand. What is relied on:
+Written from the source of github.com/ByteDance-Seed/Depth-Anything-3 at commit 2c21ea8, and not run with its weights, which were
+not at hand. What is relied on:
 
     depth_anything_3.api.DepthAnything3.from_pretrained(folder or name).to(device)
     .inference([rgb [h, w, 3] uint8], process_res=...).depth    [1, h', w'] float32: depth, larger is farther

@@ -1,7 +1,7 @@
 """Reconstruction by SAM-3D-Objects, in the interpreter of its own environment (its setup asks for Linux and 32 GB on the device).
 
-The script that serves it was written from its source (commit cf06676) and has not been run: neither its weights nor a device were
-at hand. What wm does with its answers is tested with other workers.
+The script that serves it was written from its source (commit cf06676) and has not been run with its weights: neither they nor a
+device were at hand. What wm does with its answers is tested with other workers.
 Source: Meta, "SAM 3D: 3Dfy Anything in Images", 2025; github.com/facebookresearch/sam-3d-objects, SAM License.
 """
 

@@ -1,7 +1,7 @@
 """Serves SAM-3D-Objects (docs/workers.md). Run by the interpreter of its environment; nothing of wm is imported.
 
-Written from the source of github.com/facebookresearch/sam-3d-objects at commit cf06676, and not run: neither its weights nor a
-device were at hand. What is relied on:
+Written from the source of github.com/facebookresearch/sam-3d-objects at commit cf06676, and not run with its weights: neither
+they nor a device were at hand. What is relied on:
 
     notebook/inference.py   Inference(config_file, compile=False)(image [h, w, 3] uint8, mask [h, w], seed=, pointmap=) -> dict;
                             importing it reads the variable CONDA_PREFIX
@@ -47,6 +47,8 @@ def load(options):
     repository = options["repository"]
     sys.path.insert(0, os.path.join(repository, "notebook"))
     config = options["checkpoint"] or os.path.join(repository, "checkpoints", "hf", "pipeline.yaml")
+    if not os.path.isfile(config):
+        raise FileNotFoundError(f"checkpoint={config} must be the pipeline.yaml of the weights (doc/setup.md of sam-3d-objects)")
     return importlib.import_module("inference").Inference(config, compile=bool(options.get("compile", False)))
 
 

@@ -40,6 +40,8 @@ import numpy as np
 
 def main(script, folder):
     """Serves requests until the standard input ends. Does not return."""
+    own = os.path.dirname(os.path.realpath(__file__))
+    sys.path[:] = [path for path in sys.path if os.path.realpath(path) != own]  # no module beside this one hides a package
     requests, answers = _take_streams()
     lines = queue.Queue()
     threading.Thread(target=_read, args=(requests, folder, lines), daemon=True).start()
@@ -89,7 +91,7 @@ class _Worker:
 
     def _describe(self, asked):
         self.options = asked["options"]
-        sys.path.insert(0, os.path.dirname(os.path.abspath(self.script)))  # as if it was run by itself
+        sys.path.append(os.path.dirname(os.path.abspath(self.script)))  # last, so that no file beside it hides a package
         spec: Any = importlib.util.spec_from_file_location("worker_script", self.script)
         self.module = importlib.util.module_from_spec(spec)
         sys.modules["worker_script"] = self.module
