@@ -18,6 +18,8 @@ STAGES = ("plan", "structure", "furnish", "cameras", "paint", "heldout", "recons
 BESIDE: dict[str, Any] = {"identity": False}
 """Metadata of a field that changes no stage's result: runs that differ in it alone are the same run."""
 
+READ: dict[str, Any] = {"read": True}
+"""Metadata of a backend's field that names a folder whose files shape its results: stages are made again when they change."""
 
 LONGEST_ROOM_NAME = 200
 """Characters of a room's name: in a programme, in a plan, and in what a language model answers."""

@@ -20,6 +20,7 @@ from wm.schema import ConditionConfig, TextureSettings, VerifySettings
 from wm.synth.attempt import attempt_seed, binding_edges
 from wm.synth.backends import Condition, ImageResult
 from wm.synth.painting import PaintSettings, Scaffold, paint_scene, scene_depth_range
+from wm.synth.prompts import ViewPrompt
 from wm.types import View
 
 SETTINGS = PaintSettings(texture=TextureSettings(texel_size=0.05))
@@ -115,7 +116,7 @@ def paint(painter=None, depth=None, archive=None, views=VIEWS, conditioning=None
         conditioning or scaffold(),
         painter or Painter(),
         depth or Estimator(),
-        prompt=lambda view, has_reference: ("a hall", "a study")[view.room] + " again" * has_reference,
+        prompt=lambda view, has_reference: ViewPrompt(("a hall", "a study")[view.room] + " again" * has_reference),
         seed=seed,
         load=archive.load,
         store=archive.store,

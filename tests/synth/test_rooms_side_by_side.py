@@ -19,6 +19,7 @@ from wm.geometry.texture.atlas import build_atlas, texel_charts
 from wm.synth.attempt import as_float, attempt_seed
 from wm.synth.order import scene_order
 from wm.synth.painting import Scaffold, paint_scene
+from wm.synth.prompts import ViewPrompt
 from wm.types import SurfaceKind
 
 VIEWS = (
@@ -94,7 +95,7 @@ class Callbacks(Archive):
         self._alone(super().store, view, painted, gbuffer)
 
     def prompt(self, view, has_reference):
-        return self._alone("room {}{}".format, view.room, " again" * has_reference)
+        return ViewPrompt(self._alone("room {}{}".format, view.room, " again" * has_reference))
 
     def progress(self, view, painted):
         self._alone(self.told.append, view.name)

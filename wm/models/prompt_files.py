@@ -32,6 +32,7 @@ import jinja2.sandbox
 
 from wm.bounds import setting
 from wm.errors import InputError
+from wm.schema import READ
 
 PROMPTS = pathlib.Path(__file__).parent / "prompts"
 """The folder of our own prompts."""
@@ -45,7 +46,7 @@ class PromptError(InputError):
 
 def prompts_setting() -> Any:
     """The field `prompts` of a backend's Settings."""
-    return setting(None, "Folder with prompts of your own, which take the place of ours by their file names; null: ours.")
+    return setting(None, "Folder with prompts of your own, which take the place of ours by their file names; null: ours.", **READ)
 
 
 @dataclasses.dataclass(frozen=True)

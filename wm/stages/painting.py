@@ -18,7 +18,7 @@ from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.synth.backends import DepthBackend, ImageBackend
 from wm.synth.painting import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
-from wm.synth.prompts import image_prompt
+from wm.synth.prompts import ViewPrompt, image_prompt
 from wm.synth.registry import backend_key
 from wm.synth.sights import sights
 from wm.types import SceneObject, View
@@ -144,14 +144,15 @@ def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:
     return Scaffold(scene=build_ray_scene(assemble_scene(scene.context.structure, shown)), objects=shown)
 
 
-def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
+def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], ViewPrompt]:
     """A function that returns the prompt of a view, given the view and whether it has a style reference."""
     sites = functools.cache(functools.partial(room_site, scene.plan))
 
-    def prompt(view: View, has_reference: bool) -> str:
+    def prompt(view: View, has_reference: bool) -> ViewPrompt:
         seen = sights(view.camera, sites(view.room))
         name, shown = scene.plan.rooms[view.room].name, config.condition.objects
-        return image_prompt(config.scene.theme, name, seen, objects=shown, has_reference=has_reference)
+        text = image_prompt(config.scene.theme, name, seen, objects=shown, has_reference=has_reference)
+        return ViewPrompt(text=text, theme=config.scene.theme, room=name, sights=tuple(seen))
 
     return prompt
 

@@ -21,6 +21,7 @@ from wm.geometry.texture.scene_texture import SceneTexture
 from wm.synth.attempt import PaintedView
 from wm.synth.backends import ConcurrentBackend, DepthBackend, ImageBackend
 from wm.synth.order import RoomSteps, SceneOrder, scene_order
+from wm.synth.prompts import ViewPrompt
 from wm.synth.room_painting import PaintedSteps, PaintSettings, RoomPainter, Scaffold
 from wm.synth.side_by_side import DepthInTurn, Turns, side_by_side
 from wm.types import Atlas, GBuffer, View
@@ -43,7 +44,7 @@ def paint_scene(
     image: ImageBackend,
     depth: DepthBackend,
     *,
-    prompt: Callable[[View, bool], str],
+    prompt: Callable[[View, bool], ViewPrompt],
     seed: int,
     load: Callable[[View], PaintedView | None],
     store: Callable[[View, PaintedView, GBuffer], None],

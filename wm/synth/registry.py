@@ -18,12 +18,14 @@ The key of a stage whose result depends on a backend contains its path, its sett
     reads(folder)           -> JSON values that stand for the files of a run folder that it reads, for the key of its stage
 """
 
+import dataclasses
 import importlib
 import pathlib
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 from typing import Any
 
+from wm.artifacts.digests import file_digest
 from wm.errors import InputError
 from wm.schema import BackendSettings, RunConfig
 from wm.services.services import Services
@@ -113,11 +115,11 @@ def make_backend(
 
 
 def backend_key(settings: BackendSettings, folder: pathlib.Path | None = None) -> tuple[Any, ...]:
-    """The entries of a stage's key for a backend: its settings, which contain its path, its version, and what it reads in the
-    run folder, if anything."""
+    """The entries of a stage's key for a backend: its settings, which contain its path, its version, and what it reads: in the
+    run folder, and in folders that its settings name."""
     module = backend_module(settings.backend)
     reads = [module.reads(folder)] if folder is not None and hasattr(module, "reads") else []
-    return settings, module.VERSION, *reads
+    return settings, module.VERSION, *reads, *_files_read(settings)
 
 
 def close_backend(backend: Any) -> None:
@@ -183,6 +185,15 @@ def misplaced(config: RunConfig) -> Iterator[str]:
             _own(settings, backend_module(settings.backend))
         except BackendError as error:
             yield f"{group}: {error}"
+
+
+def _files_read(settings: BackendSettings) -> Iterator[list[str]]:
+    """Names and digests of the files in each folder that a field marked by `wm.schema.READ` names."""
+    for field in dataclasses.fields(settings):
+        folder = getattr(settings, field.name)
+        if field.metadata.get("read") and folder is not None:
+            root = pathlib.Path(folder).expanduser()
+            yield [f"{path.relative_to(root)} {file_digest(path)}" for path in sorted(root.rglob("*")) if path.is_file()]
 
 
 def _own(settings: BackendSettings, module: ModuleType) -> BackendSettings:

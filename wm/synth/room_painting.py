@@ -21,6 +21,7 @@ from wm.synth.attempt import PaintedView, as_float, paint_view
 from wm.synth.backends import Condition, DepthBackend, ImageBackend, ImageRequest, PrefetchingBackend
 from wm.synth.condition import make_condition
 from wm.synth.order import PaintStep
+from wm.synth.prompts import ViewPrompt
 from wm.synth.side_by_side import ImagesUntilStopped, Turns
 from wm.types import Atlas, GBuffer, SceneObject, View
 
@@ -51,7 +52,7 @@ class RoomPainter:
     conditioning: Scaffold
     image: ImageBackend
     depth: DepthBackend
-    prompt: Callable[[View, bool], str]
+    prompt: Callable[[View, bool], ViewPrompt]
     seed: int
     load: Callable[[View], PaintedView | None]
     store: Callable[[View, PaintedView, GBuffer], None]
@@ -107,7 +108,10 @@ class RoomPainter:
             request = ImageRequest(
                 condition=self._condition(shown, view, atlas),
                 reference=None if step.reference is None else as_float(images[step.reference]),
-                prompt=prompt,
+                prompt=prompt.text,
+                theme=prompt.theme,
+                room=prompt.room,
+                sights=prompt.sights,
                 view=view,
                 seed=self.seed,
             )
