@@ -24,7 +24,7 @@ class StageMeter:
 
     def __init__(self, earlier: Rows | None = None, keep: Callable[[Rows], None] = lambda rows: None):
         self.stages: Rows = {name: dict(row) for name, row in (earlier or {}).items()}
-        self._keep = keep
+        self.keep = keep
         self._outdated: set[str] = set()
 
     def outdate(self) -> None:
@@ -55,7 +55,7 @@ class StageMeter:
                 peak[0] = max(peak[0], probe.resident_gib())
                 if time.perf_counter() - kept > KEEP_SECONDS:
                     with contextlib.suppress(OSError):  # of a full disk the stage itself complains
-                        self._keep(rows())
+                        self.keep(rows())
                     kept = time.perf_counter()
 
         watcher = threading.Thread(target=watch, daemon=True)
@@ -67,7 +67,7 @@ class StageMeter:
             watcher.join()
             self.stages = rows()
             self._outdated.discard(name)
-            self._keep(self.stages)
+            self.keep(self.stages)
 
     def knows(self, name: str) -> bool:
         """Whether a stage has a row of this run."""

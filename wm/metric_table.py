@@ -99,6 +99,8 @@ _ROWS = (
            "Number of gaussians of the scene."),
     Metric("seconds", "Time", "s", ".1f", "lower",
            "Wall-clock time of all stages together, on the machine of the run."),
+    Metric("usd", "Paid to models", "USD", ".2f", "lower",
+           "What the requests of the run to models have cost, by the price table; not measured where nothing was paid."),
     Metric("peak_gib", "Peak memory", "GiB", ".2f", "lower",
            "Highest resident memory, over all stages, of the process and of the processes that it started."),
 )  # fmt: skip

@@ -25,7 +25,9 @@ from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.metric_table import METRICS
 from wm.schema import STAGES, RunConfig
+from wm.services.ledger import Ledger
 from wm.splat.optimization.padding import Capacity
+from wm.stages.asking import open_services, paid
 from wm.stages.evaluation import evaluate
 from wm.stages.heldout import HeldOut, render_heldout
 from wm.stages.history import HISTORY
@@ -71,7 +73,9 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
         if store.overwrites:
             meter.outdate()
         _keep_timings(folder, meter.stages)  # from now on a folder without times has lost them
-        context = RunContext(config=config, folder=store, meter=meter)
+        services = open_services(config, folder)
+        context = RunContext(config=config, folder=store, meter=meter, services=services)
+        meter.keep = functools.partial(_keep_timings, folder, ledger=services.ledger)
         try:
             metrics = _run_stages(context)
         except StoppedError:
@@ -96,9 +100,9 @@ def _run_stages(context: RunContext) -> dict:
 def _painted(context: RunContext, scene: Scene) -> tuple[Painted, HeldOut]:
     """The stages that need the image and depth backends, which are closed afterwards to free their memory."""
     with contextlib.ExitStack() as done:
-        image = make_backend("image", context.config.image, scene.context)
+        image = make_backend("image", context.config.image, scene.context, context.services)
         done.callback(close_backend, image)
-        depth = make_backend("depth", context.config.depth, scene.context)
+        depth = make_backend("depth", context.config.depth, scene.context, context.services)
         done.callback(close_backend, depth)
         return paint(context, scene, image, depth), render_heldout(context, scene, image)
 
@@ -119,8 +123,12 @@ def _header(config: RunConfig) -> dict:
     return {"config": shown_identity(identity(config)), "seed": config.seed, "versions": versions(), **plan}
 
 
-def _keep_timings(folder: pathlib.Path, rows: Rows) -> None:
-    write_atomically(confined(folder, TIMINGS, replaced=True), json_text(rows))
+def _keep_timings(folder: pathlib.Path, rows: Rows, ledger: Ledger | None = None) -> None:
+    """Writes `timings.json`: of each stage its time and memory, and what it has paid to models, if anything."""
+    spent = {name: ledger.spent(name) for name in rows} if ledger is not None else {}
+    cost = {name: {"paid_requests": part.requests, "usd": part.usd} for name, part in spent.items() if part.requests}
+    told = {name: row | cost.get(name, {}) for name, row in rows.items()}
+    write_atomically(confined(folder, TIMINGS, replaced=True), json_text(told))
 
 
 def _timings(folder: pathlib.Path) -> Rows:
@@ -148,7 +156,11 @@ def _earlier_times(folder: pathlib.Path, entries: Iterable[str]) -> Rows:
 def _stopped(context: RunContext) -> str:
     until = context.config.until
     goes_on = f"stopped after {until}; the same command without until={until} goes on"
-    return "\n".join(["", _times(context), goes_on, f"results: {context.folder.path}"])
+    former = context.folder.overwrites and context.folder.unasked
+    stays = ["what the former run has left of later stages stays in the folder until this run is completed"] if former else []
+    spent = paid(context.services)
+    more = [spent] * bool(spent)
+    return "\n".join(["", _times(context), *more, goes_on, *stays, f"results: {context.folder.path}"])
 
 
 def _summary(context: RunContext, metrics: dict) -> str:
@@ -163,6 +175,7 @@ def _summary(context: RunContext, metrics: dict) -> str:
             *again,
             f"{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
             _times(context),
+            *filter(None, [paid(context.services)]),
             f"held-out: {held_out}" if held_out else "held-out: not measured",
             f"results: {where}",
         ]

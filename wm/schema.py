@@ -1,8 +1,8 @@
 """Every knob, as kw_only dataclasses: the Hydra schema, and the settings records that functions take.
 
-Standard library only. Each field says beside its default what it is for, and what it may hold (`wm.bounds`). Angles are degrees
-here and radians inside; lengths are metres, image sizes pixels. Hydra composes these from conf/ (unknown keys raise); `hash`
-lets one be a static argument of a jitted function, so treat a record as read-only once made (`dataclasses.replace` makes a
+Nothing heavy is imported. Each field says beside its default what it is for, and what it may hold (`wm.bounds`). Angles are
+degrees here and radians inside; lengths are metres, image sizes pixels. Hydra composes these from conf/ (unknown keys raise);
+`hash` lets one be a static argument of a jitted function, so treat a record as read-only once made (`dataclasses.replace` makes a
 changed copy).
 """
 
@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from wm.bounds import choice, number, setting
+from wm.services.prices import Price
 
 STAGES = ("plan", "structure", "furnish", "cameras", "paint", "heldout", "reconstruct", "evaluate", "report")
 """The stages of a run, in order."""
@@ -224,6 +225,35 @@ class ReportConfig:
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
+class AnswersConfig:
+    """What models have answered, kept so that nothing is asked or paid twice."""
+
+    folder: str = setting("outputs/answers", "Folder of the answers; runs and machines can share it. It holds no secret.")
+    replay: str = choice(
+        "auto", ("auto", "only", "off"), "auto looks answers up and keeps new ones; only sends nothing; off asks everything anew."
+    )
+    patience: float = number(900.0, 0, 86400, "How long a request is tried again while its service fails.", unit="s")
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class BudgetConfig:
+    """Limits of what a run may spend on models, its earlier parts included."""
+
+    usd: float | None = number(None, 0.0, 1e6, "US dollars.", unit="USD", null="no limit")
+    requests: int | None = number(None, 0, 10**9, "Paid requests.", null="no limit")
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
+class PricesConfig:
+    """What models cost: conf/prices/*.yaml."""
+
+    as_of: str = setting("", "Day on which the prices were read.")
+    models: dict[str, Price] = field(
+        default_factory=dict, hash=False, metadata={"help": "By model; a price holds for all names that begin with its own."}
+    )
+
+
+@dataclass(kw_only=True, unsafe_hash=True)
 class BackendSettings:
     """What selects a backend. The `Settings` of a backend's module extends it with the knobs of that backend alone.
 
@@ -267,6 +297,9 @@ class RunConfig:
     depth: BackendSettings = field(default_factory=BackendSettings)
     segmentation: BackendSettings = field(default_factory=BackendSettings)
     reconstruction: BackendSettings = field(default_factory=BackendSettings)
+    answers: AnswersConfig = field(default_factory=AnswersConfig, metadata=BESIDE)
+    budget: BudgetConfig = field(default_factory=BudgetConfig, metadata=BESIDE)
+    prices: PricesConfig = field(default_factory=PricesConfig, metadata=BESIDE)
     variant: str = setting("full", "Name of the ablation, and of its part of the run folder: conf/variant/*.yaml.")
     preset: str = setting("standard", "Name of the size of the run: conf/preset/*.yaml.")
     seed: int = number(0, 0, 2**63 - 1, "Seed of everything random.")

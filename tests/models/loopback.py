@@ -35,8 +35,8 @@ class Reply(NamedTuple):
 class Loopback:
     """A server of one test. `answer` gives the reply to a request; it is called by several threads at the same time.
 
-        with Loopback(lambda asked: Reply(body={"text": "hello"})) as server:
-            client = SomeSDK(base_url=server.url)
+    with Loopback(lambda asked: Reply(body={"text": "hello"})) as server:
+        client = SomeSDK(base_url=server.url)
     """
 
     def __init__(self, answer: Callable[[Asked], Reply]):

@@ -9,6 +9,7 @@ import pytest
 
 from tests.geometry.plans import two_rooms
 from tests.geometry.things import box
+from wm.color import to_bytes
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.mesh.structure import build_structure
 from wm.geometry.rays.pinhole import make_camera, unproject_depth
@@ -16,7 +17,7 @@ from wm.geometry.rays.raycast import build_ray_scene, cast
 from wm.geometry.texture.accumulation import accumulate
 from wm.geometry.texture.atlas import build_atlas, texel_positions
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
-from wm.synth.attempt import as_bytes, attempt_seed, binding_edges
+from wm.synth.attempt import attempt_seed, binding_edges
 from wm.synth.backends import Condition, ImageResult
 from wm.synth.painting import PaintSettings, Scaffold, paint_scene, scene_depth_range
 from wm.types import View
@@ -272,7 +273,7 @@ def test_of_attempts_that_failed_one_is_kept_whose_depth_can_be_told(untold, tol
     kept = paint(painter, depth, views=(edgeless,))[1]["hall/bootstrap0"]
     assert (kept.accepted, kept.attempts, kept.recall, depth.asked) == (False, limit, None, limit)
     assert 0 < kept.mask.mean() < 1
-    np.testing.assert_array_equal(kept.rgb, as_bytes(painter.generate(painter.requests[told]).rgb))
+    np.testing.assert_array_equal(kept.rgb, to_bytes(painter.generate(painter.requests[told]).rgb))
 
 
 def test_a_variant_is_conditioned_on_its_own_scaffold():

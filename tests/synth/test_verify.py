@@ -137,3 +137,12 @@ def test_an_estimate_of_half_the_image_vouches_for_no_more_than_that():
         assert (verdict.passed, verdict.recall, verdict.disagreement) == (False, 1.0, 0.5)
         assert "missing" in verdict.reason
         assert verify(edges, half, VerifySettings(max_disagreement=1.0), depth=held).passed  # the paper's test alone
+
+
+@pytest.mark.parametrize("falling", [lambda z: 1 / z, lambda z: -z])
+def test_front_and_back_swapped_does_not_pass_where_things_may_be_added(falling):
+    """Without the depth it would: the edges of an inverted estimate are where they should be."""
+    depth, edges = step()
+    assert verify(edges, falling(depth), VerifySettings()).passed
+    assert not verify(edges, falling(depth), VerifySettings(), depth=depth, adds=True).passed
+    assert verify(edges, 3 * depth + 1, VerifySettings(), depth=depth, adds=True).passed

@@ -1,6 +1,6 @@
 """The manifest of a run folder: what identifies the run, and what it has finished.
 
-    {"header": {configuration, seed, versions}, "entries": {name: {"key": digest, "files": {file: digest}}}}
+    {"header": {configuration, seed, versions}, "entries": {name: {"key": digest, "files": {file: digest}, "note": {}}}}
 
 It may be damaged or somebody else's, so its form is checked, and every file that it names must stay in its folder.
 """
@@ -50,7 +50,7 @@ def read_manifest(folder: pathlib.Path) -> Manifest | None:
     match manifest:
         case {"header": dict(header), "entries": dict(entries)} if all(map(_is_entry, entries.values())):
             refused = tuple(name for name, entry in entries.items() if not all(map(_may_be_held, entry["files"])))
-            kept = {name: {"key": e["key"], "files": e["files"]} for name, e in entries.items() if name not in refused}
+            kept = {name: _kept(entry) for name, entry in entries.items() if name not in refused}
             return Manifest(header=header, entries=kept, refused=refused)
     return None
 
@@ -61,6 +61,12 @@ def differences(old: Any, new: Any, prefix: str = "") -> list[str]:
         keys = sorted(old.keys() | new.keys())
         return [line for key in keys for line in differences(old.get(key), new.get(key), f"{prefix}.{key}" if prefix else key)]
     return [] if old == new else [f"{prefix}={old} (this one: {new})"]
+
+
+def _kept(entry: dict[str, Any]) -> dict[str, Any]:
+    """What is read of an entry; its note is nobody's input, and goes with it."""
+    note = entry.get("note")
+    return {"key": entry["key"], "files": entry["files"], **({"note": note} if isinstance(note, dict) else {})}
 
 
 def _is_entry(entry: Any) -> bool:

@@ -61,6 +61,11 @@ class RunFolder:
         """The first words of the names of all entries: "paint" of "paint/hall/bootstrap0"."""
         return {name.partition("/")[0] for name in self._entries}
 
+    @property
+    def unasked(self) -> set[str]:
+        """Names of the entries that this process has neither asked for nor made."""
+        return set(self._entries) - self._asked
+
     def has(self, name: str, key: str) -> bool:
         """Whether entry `name` made from `key` is here and whole; a damaged one is forgotten, with a line.
 
@@ -90,21 +95,23 @@ class RunFolder:
             self.record(name, key, files)
         return bool(files)
 
-    def save(self, name: str, key: str, files: Mapping[str, Writer | bytes | str]) -> None:
-        """Writes the files of an entry, each atomically, and then records it."""
+    def save(
+        self, name: str, key: str, files: Mapping[str, Writer | bytes | str], note: Mapping[str, Any] | None = None
+    ) -> None:
+        """Writes the files of an entry, each atomically, and then records it, with a note of JSON values if there is one."""
         for relative, write in files.items():
             self.write(relative, write)
-        self.record(name, key, list(files))
+        self.record(name, key, list(files), note)
 
     def write(self, relative: str, content: Writer | bytes | str) -> None:
         """Writes a file atomically. One that belongs to no entry, because it depends on the clock, is written with this alone."""
         write_atomically(confined(self.path, relative, replaced=True), content)
 
-    def record(self, name: str, key: str, relatives: list[str]) -> None:
+    def record(self, name: str, key: str, relatives: list[str], note: Mapping[str, Any] | None = None) -> None:
         """Records an entry whose files are already in place; files that it had before and has no more are removed."""
         digests = {relative: file_digest(confined(self.path, relative)) for relative in sorted(relatives)}
         former = self._entries.get(name, {"files": {}})["files"]
-        self._entries[name] = {"key": key, "files": digests}
+        self._entries[name] = {"key": key, "files": digests, **({"note": dict(note)} if note else {})}
         self._asked.add(name)
         self.recorded += 1
         self._remove({relative: expected for relative, expected in former.items() if relative not in digests})
@@ -116,7 +123,7 @@ class RunFolder:
 
     def drop_unasked(self) -> None:
         """Forgets the entries that this process has neither asked for nor made, and removes their files: a former run's."""
-        self._drop([name for name in self._entries if name not in self._asked])
+        self._drop(self.unasked)
 
     def _drop(self, names: Iterable[str]) -> None:
         stale = [self._entries.pop(name) for name in names]

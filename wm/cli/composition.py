@@ -30,6 +30,8 @@ from wm.validate import ConfigError, validate_config
 
 LINES = 12
 """Of a message of many lines, such as all violations of a plan, so many are said."""
+_WORD = 200
+"""Characters of one word that a message quotes."""
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 CONF = next(folder for folder in (_PACKAGE / "conf", _PACKAGE.parent / "conf") if (folder / "config.yaml").is_file())
@@ -161,10 +163,14 @@ def options(group: str) -> tuple[str, ...]:
 
 
 def one_line(text: str) -> str:
-    """A message of several lines as one, its last lines counted where there are more than LINES."""
-    lines = [" ".join(line.split()) for line in text.splitlines() if line.strip()]
+    """A message of several lines as one, its last lines counted where there are more than LINES, and endless words cut."""
+    lines = [" ".join(map(_cut, line.split())) for line in text.splitlines() if line.strip()]
     more = [f"and {len(lines) - LINES} more"] if len(lines) > LINES else []
     return "; ".join(lines[:LINES] + more)
+
+
+def _cut(word: str) -> str:
+    return word if len(word) <= _WORD else f"{word[:_WORD]}..."
 
 
 def _typed(yaml: Any, config_path: str, path: str) -> Any:
@@ -250,7 +256,7 @@ def _guess(word: str, known: Sequence[str], prefix: str = "") -> str:
 def _unreadable(argument: str, reason: str) -> str:
     key, equals, value = argument.partition("=")
     quoting = f"; a text is quoted, within what the shell quotes: {key}={quoted(value)}" if equals else ""
-    return f"cannot read the argument {argument!r}: {reason}{quoting}"
+    return one_line(f"cannot read the argument {argument!r}: {reason}{quoting}")
 
 
 def _no_scene() -> str:

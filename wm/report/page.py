@@ -51,6 +51,7 @@ class ReportData:
     history: Sequence[dict]
     video: bytes | None
     heard: str = ""  # what was made of the theme's words, in one line
+    paid: str = ""  # what was paid to models, in one line
 
 
 def render_page(data: ReportData) -> str:

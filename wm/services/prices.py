@@ -3,20 +3,25 @@
 import dataclasses
 from collections.abc import Mapping
 
+from wm.bounds import number, setting
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+
+@dataclasses.dataclass(kw_only=True, unsafe_hash=True)
 class Price:
-    """Of one model. A part that the service does not charge for is 0."""
+    """What one model costs. A part that the service does not charge for is 0."""
 
-    input: float = 0.0  # USD per million input tokens
-    output: float = 0.0  # USD per million output tokens
-    image_tokens: float = 0.0  # USD per million tokens of images put out
-    image: float = 0.0  # USD per image put out
-    request: float = 0.0  # USD per request
-    usage: Mapping[str, float] = dataclasses.field(default_factory=dict)  # of a typical request (ServiceAnswer.usage)
-    seconds: float | None = None  # of a typical request
+    input: float = number(0.0, 0, 1e6, "Per million input tokens.", unit="USD")
+    output: float = number(0.0, 0, 1e6, "Per million output tokens.", unit="USD")
+    image_tokens: float = number(0.0, 0, 1e6, "Per million tokens of images put out.", unit="USD")
+    image: float = number(0.0, 0, 1e6, "Per image put out.", unit="USD")
+    request: float = number(0.0, 0, 1e6, "Per request.", unit="USD")
+    usage: dict[str, float] = dataclasses.field(
+        default_factory=dict, hash=False, metadata={"help": "Tokens and images of a typical request, for estimates."}
+    )
+    seconds: float | None = number(None, 0.0, 1e5, "Time of a typical request.", unit="s", null="not known")
+    source: str = setting("", "Where the price was read.")
 
-    def cost(self, usage: Mapping[str, float]) -> float:
+    def cost(self, usage: Mapping[str, int | float]) -> float:
         """USD of a request that used this; what is not said is not charged."""
         tokens = (
             usage.get("input_tokens", 0) * self.input
@@ -38,12 +43,12 @@ class Prices:
         names = [name for name in self.models if model.startswith(name)]
         return self.models[max(names, key=len)] if names else None
 
-    def cost(self, model: str, usage: Mapping[str, float]) -> float | None:
+    def cost(self, model: str, usage: Mapping[str, int | float]) -> float | None:
         """USD of a request that used this; None if the table has no price for the model."""
         price = self.of(model)
         return None if price is None else price.cost(usage)
 
-    def expected(self, model: str, usage: Mapping[str, float] | None = None) -> float | None:
+    def expected(self, model: str, usage: Mapping[str, int | float] | None = None) -> float | None:
         """USD of a request before it is sent; `usage` overrides what is typical of the model."""
         price = self.of(model)
         return None if price is None else price.cost({**price.usage, **(usage or {})})

@@ -17,7 +17,7 @@ class ServiceRequest:
     """Everything that the answer depends on, by name: JSON values, bytes, arrays. Never a secret, an address or a time limit."""
     paid: bool = True
     """Whether it costs money. A local model costs time only, and no budget counts it."""
-    expected: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    expected: Mapping[str, int | float] = dataclasses.field(default_factory=dict)
     """Expected usage, in the units of `ServiceAnswer.usage`, from which the budget reserves. The price table fills in what is
     not said."""
 
@@ -38,7 +38,7 @@ class ServiceAnswer:
     model_version: str = ""  # as the service reports it
     response_id: str = ""
     finish_reason: str = ""
-    usage: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    usage: Mapping[str, int | float] = dataclasses.field(default_factory=dict)
     """What was used: "input_tokens", "output_tokens", "image_tokens" (tokens of images put out), "images", "requests"."""
 
     @property

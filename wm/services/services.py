@@ -7,6 +7,7 @@ A process that is killed at any point sends again only what it had no answer to.
 
 import contextlib
 import dataclasses
+import threading
 import time
 from collections.abc import Callable, Iterator
 
@@ -38,6 +39,10 @@ class Services:
     run: str = ""  # what tells this run from others that share the store
     stage: str = ""  # the stage that asks now
     say: Callable[[str], None] = lambda line: None  # told why a request waits
+    views: int | None = None  # views that are still to be painted, once that is known
+    announce: Callable[[], None] = lambda: None  # called before the first paid request of each stage is sent
+    _announced: set[str] = dataclasses.field(default_factory=set)
+    _guard: threading.Lock = dataclasses.field(default_factory=threading.Lock)
 
     def ask(self, request: ServiceRequest, send: Callable[[], ServiceAnswer]) -> ServiceAnswer:
         """The answer to a request: a kept one, or that of `send`.
@@ -92,6 +97,8 @@ class Services:
                 f"{request.backend}: answers.replay=only, and {where} has no answer {request.key} of {request.model}; "
                 "answers.replay=auto sends the request"
             )
+        if request.paid:
+            self._announce_once()
         with self.budget.reserve(self.prices.expected(request.model, request.expected)) if request.paid else _free() as held:
             started = time.monotonic()
             answer = with_retries(send, self.retries, f"{request.backend} ({request.model})", waiting=self.say)
@@ -103,6 +110,12 @@ class Services:
                 held.settle(usd)
             self._write_down(request, usd, seconds)
         return answer
+
+    def _announce_once(self) -> None:
+        with self._guard:  # held while it is said: no request overtakes it
+            if self.stage not in self._announced:
+                self._announced.add(self.stage)
+                self.announce()
 
     def _write_down(self, request: ServiceRequest, usd: float | None, seconds: float) -> None:
         told = {"key": request.key, "stage": self.stage, "backend": request.backend, "model": request.model}

@@ -5,7 +5,6 @@ It is written whole or not at all, and holds no secret, since requests and answe
 """
 
 import contextlib
-import fcntl
 import io
 import json
 import os
@@ -18,6 +17,11 @@ from typing import Any
 from wm.artifacts.atomic import write_atomically
 from wm.artifacts.digests import json_text
 from wm.services.records import ServiceAnswer, ServiceRequest
+
+try:
+    import fcntl
+except ImportError:  # Windows has no flock: there only the threads of one process exclude each other
+    fcntl = None
 
 _RECORD = "answer.json"
 _EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -73,7 +77,8 @@ class AnswerStore:
         path.parent.mkdir(parents=True, exist_ok=True)
         while True:
             handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
-            fcntl.flock(handle, fcntl.LOCK_EX)
+            if fcntl is not None:
+                fcntl.flock(handle, fcntl.LOCK_EX)
             if _is_file_at(handle, path):
                 break
             os.close(handle)  # the one who held it has removed the file: this lock excludes nobody

@@ -1,11 +1,13 @@
 """The stages of a run: each is a function of the run's context and of the results of the stages before it.
 
     run_context     RunContext: the configuration, the run folder and the meter, which every stage needs
+    asking          open_services: what backends ask models through, and what that will cost
     scene           build_scene: the stages plan, structure, furnish and cameras
     painting        paint: an image for every training view
     heldout         render_heldout: the true image of each held-out view
     reconstruction  reconstruct: gaussians from the painted views
     starting        starting_gaussians: the initial gaussians of a room
+    tucked          tucked: discs on unseen surface that no view sees
     warm_up         warming_up: what the fit will run is compiled while views are painted
     executors       room_executor: the executor that fits rooms, by its name in the configuration
     evaluation      evaluate: the metrics, measured on held-out views

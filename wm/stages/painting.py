@@ -25,6 +25,8 @@ from wm.types import SceneObject, View
 
 SCAFFOLD = "scaffold.glb"
 SUMMARY = "stages/paint.json"
+_NOTED = ("model", "model_version", "seed")
+"""What the manifest says of how a view was made; `views/*.json` says all of it."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -76,6 +78,7 @@ def _paint(run: RunContext, scene: Scene, image: ImageBackend, depth: DepthBacke
         summary = json.loads((run.folder.path / SUMMARY).read_text(encoding="utf-8"))
         return Painted(yield_share=summary["yield"], atm=summary["atm"], key=key, run=run)
     run.folder.drop_others("paint/", names)
+    run.services.views = sum(not run.folder.has(_entry(view), key) for view in scene.views)
     scaffold = Scaffold(scene=scene.rays, objects=scene.objects)
     with run.bar("paint", len(scene.views)) as bar:
 
@@ -116,7 +119,7 @@ def _read_picture(run: RunContext, view: View) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _store(run: RunContext, scene: Scene, key: str, view: View, painted: PaintedView, depth: np.ndarray) -> None:
-    record = {name: getattr(painted, name) for name in ("recall", "attempts", "accepted", "reference")}
+    record = {name: getattr(painted, name) for name in ("recall", "attempts", "accepted", "reference", "made_by")}
     frame = codecs.camera_frame(view, scene.rooms[view.room])
     base = f"views/{view.name}"
     files = {
@@ -126,7 +129,8 @@ def _store(run: RunContext, scene: Scene, key: str, view: View, painted: Painted
         f"{base}.depth.png": codecs.encode_depth(depth),
         f"{base}.json": json_text({"camera": frame, "painted": record}),
     }
-    run.folder.save(_entry(view), key, files)
+    told = {name: value for name, value in painted.made_by.items() if name in _NOTED}
+    run.folder.save(_entry(view), key, files, {"backend": run.config.image.backend, **told})
 
 
 def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:

@@ -7,13 +7,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from wm.artifacts.digests import json_text
-from wm.codecs import to_bytes
+from wm.color import to_bytes
 from wm.environment import shown
 from wm.geometry import cast, walkthrough
 from wm.geometry.rays.pinhole import scale_camera
 from wm.metric_table import METRICS
 from wm.report import ReportData, SheetRow, render_page, write_video
 from wm.splat.optimization.curve import HELDOUT
+from wm.stages.asking import paid
 from wm.stages.evaluation import GLIMPSE, Seen, glimpse, look_all, stored_render
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
@@ -41,7 +42,9 @@ def report(run: RunContext, scene: Scene, painted: Painted, result: Reconstructe
         if run.config.report.enabled:
             page = _page(run, scene, painted, result)
     # The times of the stages are complete only now. A metric that was not measured becomes null.
-    complete = dict.fromkeys(METRICS) | metrics | {"seconds": run.meter.seconds, "peak_gib": run.meter.peak_gib}
+    spent = run.services.ledger.spent()
+    cost = {"seconds": run.meter.seconds, "peak_gib": run.meter.peak_gib, "usd": spent.usd if spent.requests else None}
+    complete = dict.fromkeys(METRICS) | metrics | cost
     run.folder.write(METRICS_FILE, json_text(complete))
     if page is None:
         _remove_report(run.folder.path / REPORT)
@@ -61,6 +64,7 @@ def _page(run: RunContext, scene: Scene, painted: Painted, result: Reconstructed
         scene=shown(run.config.scene.name),
         theme=shown(run.config.scene.theme),
         heard=scene.heard,
+        paid=paid(run.services),
         variant=shown(run.config.variant),
         preset=shown(run.config.preset),
         seed=run.config.seed,

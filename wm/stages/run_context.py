@@ -12,6 +12,7 @@ from wm.artifacts.digests import digest
 from wm.artifacts.run_folder import RunFolder
 from wm.meter import StageMeter
 from wm.schema import STAGES, RunConfig
+from wm.services.services import Services
 from wm.stages.progress import Progress, progress
 
 _RECORDED = ("jax", "jaxlib", "numpy", "embreex", "manifold3d", "optax")
@@ -29,6 +30,7 @@ class RunContext:
     config: RunConfig
     folder: RunFolder
     meter: StageMeter
+    services: Services = dataclasses.field(default_factory=Services)
 
     def key(self, stage: str, *inputs: Any) -> str:
         """The key of a stage's entry: what it is made from, and by which versions."""
@@ -45,6 +47,7 @@ class RunContext:
         Raises:
           StoppedError: at its end, if the run goes only until this stage.
         """
+        self.services.stage = name
         recorded, found, known = self.folder.recorded, self.folder.found, self.meter.knows(name)
 
         def made() -> bool:

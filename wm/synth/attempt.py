@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float, UInt8
 from scipy.ndimage import maximum_filter
 
 from wm import console
+from wm.color import to_bytes
 from wm.schema import VerifySettings
 from wm.services.faults import RefusedError
 from wm.synth.agreement import agreement
@@ -66,8 +67,8 @@ def paint_view(
       ValueError: a backend returned something other than an image, or a depth estimate, of the view's size.
     """
     edges = binding_edges(shown, request.condition, settings)
-    held = shown.depth if request.condition.objects == "textured" else None
-    condition = as_bytes(request.condition.rgb)
+    held, adds = compared_depth(shown, request.condition, settings), request.condition.objects != "textured"
+    condition = to_bytes(request.condition.rgb)
     refusals: list[str] = []
     best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
     for attempt in range(max(settings.max_attempts, 1)):
@@ -77,10 +78,10 @@ def paint_view(
         except RefusedError as refusal:
             refusals.append(str(refusal))
             continue
-        rgb = as_bytes(checked_image(result.rgb, request.view))
+        rgb = to_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
         estimate = _estimate(depth, result, request) if settings.enabled else None
-        verdict = verify(edges, estimate, settings, depth=held)
+        verdict = verify(edges, estimate, settings, depth=held, adds=adds)
         painted = PaintedView(
             rgb=rgb,
             mask=np.ones(shown.hit.shape, bool),
@@ -136,13 +137,20 @@ def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings
     edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
     if condition.objects != "boxes" or condition.object is None:
         return edges
-    near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1)).astype(bool)
-    return edges & ~near
+    return edges & ~_near_boxes(condition, settings)
 
 
-def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1], rounded to 8 bits."""
-    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
+def compared_depth(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Float[np.ndarray, "h w"]:
+    """The depth that an image is held to: that of the conditioning scaffold; 0 near boxes, since furniture does not fill them."""
+    if condition.objects != "boxes" or condition.object is None:
+        return shown.depth
+    return np.where(_near_boxes(condition, settings), np.float32(0), shown.depth)
+
+
+def _near_boxes(condition: Condition, settings: VerifySettings) -> np.ndarray:
+    assert condition.object is not None
+    radius = dilation_radius(settings, condition.object.shape[1])
+    return np.asarray(maximum_filter(condition.object, 2 * radius + 1)).astype(bool)
 
 
 def as_float(rgb: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w 3"]:

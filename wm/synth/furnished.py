@@ -9,10 +9,11 @@ from typing import Any
 from wm.geometry import FloorPlan, build_structure, load_plan
 from wm.geometry.exchange.plan_objects import plan_objects
 from wm.schema import RunConfig
+from wm.services.services import Services
 from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext
 from wm.synth.object_ids import with_ids
 from wm.synth.proposing import propose_plan
-from wm.synth.registry import backend_key, close_backend, make_backend, model_settings
+from wm.synth.registry import backend_key, backend_module, close_backend, make_backend, model_settings
 from wm.synth.seeds import PARTS, seed_of
 from wm.types import SceneObject
 
@@ -38,16 +39,27 @@ class Furnisher:
             return objects
 
 
-def make_furnisher(config: RunConfig, context: SceneContext) -> Furnisher:
-    """The Furnisher of the selected objects backend. An image-driven backend uses the selected models."""
-    backend: ObjectsBackend = make_backend("objects", config.objects, context)
+def make_furnisher(
+    config: RunConfig, context: SceneContext, services: Services | None = None, folder: pathlib.Path | None = None
+) -> Furnisher:
+    """The Furnisher of the selected objects backend. An image-driven backend uses the selected models.
+
+    Args:
+      config, context: the configuration and its scene.
+      services: what models ask through; None: kept nowhere and without limits.
+      folder: the run folder, where drawings are kept and a person's clicks are read; None without one.
+    """
+    backend: ObjectsBackend = make_backend("objects", config.objects, context, services)
     own = backend_key(config.objects)
     if not isinstance(backend, ImageDrivenBackend):
         return Furnisher(backend, own)
-    models = model_settings(config)
-    asked = (models.image, models.depth, models.segmentation, models.reconstruction)
+    models = model_settings(config, services, folder)
+    asked = [models.image, models.depth, models.segmentation, models.reconstruction]
+    if "language" in getattr(backend_module(config.segmentation.backend), "USES", ()):
+        asked.append(config.language)
     drawn = (config.finish, config.light)  # what an image shows of furniture depends on these
-    return Furnisher(backend.with_models(models), (*own, *drawn, *(part for settings in asked for part in backend_key(settings))))
+    keys = (part for settings in asked for part in backend_key(settings, folder))
+    return Furnisher(backend.with_models(models), (*own, *drawn, *keys))
 
 
 def bare_context(config: RunConfig, plan: FloorPlan) -> SceneContext:

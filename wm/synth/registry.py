@@ -12,7 +12,10 @@ The key of a stage whose result depends on a backend contains its path, its sett
     PROVIDES                -> of an image backend: what its results contain beyond the protocol, such as DRAWN
     REQUIRES                -> what it needs from PROVIDES of the selected image backend
     USES                    -> the other groups of backends that it uses
+    SERVED                  -> True if its backends ask a model through the run's services (ServedBackend); `make` then needs no
+                               scene to say what a request costs
     heard(theme)            -> which words of a theme it uses and which it does not know (HeardTheme)
+    reads(folder)           -> JSON values that stand for the files of a run folder that it reads, for the key of its stage
 """
 
 import importlib
@@ -109,9 +112,12 @@ def make_backend(
     return backend.with_services(services) if services is not None and isinstance(backend, ServedBackend) else backend
 
 
-def backend_key(settings: BackendSettings) -> tuple[Any, ...]:
-    """The entries of a stage's key for a backend: its settings, which contain its path, and its version."""
-    return settings, backend_module(settings.backend).VERSION
+def backend_key(settings: BackendSettings, folder: pathlib.Path | None = None) -> tuple[Any, ...]:
+    """The entries of a stage's key for a backend: its settings, which contain its path, its version, and what it reads in the
+    run folder, if anything."""
+    module = backend_module(settings.backend)
+    reads = [module.reads(folder)] if folder is not None and hasattr(module, "reads") else []
+    return settings, module.VERSION, *reads
 
 
 def close_backend(backend: Any) -> None:

@@ -24,6 +24,7 @@ from wm.services.records import ServiceAnswer
 from wm.synth.backends import SceneContext
 
 VERSION = "1"
+SERVED = True
 _EXTRA = "anthropic"
 _KEY = "ANTHROPIC_API_KEY"
 _DEFAULT = "default"

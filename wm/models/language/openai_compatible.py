@@ -27,6 +27,7 @@ from wm.services.records import ServiceAnswer
 from wm.synth.backends import SceneContext
 
 VERSION = "1"
+SERVED = True
 _EXTRA = "openai"
 _COMPLETION = "completion.json"
 _NO_KEY = "none"
