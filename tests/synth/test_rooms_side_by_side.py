@@ -2,8 +2,10 @@
 
 import dataclasses
 import functools
+import gc
 import threading
 import time
+import weakref
 
 import numpy as np
 import pytest
@@ -211,25 +213,27 @@ def test_a_failure_ends_the_other_rooms_and_is_raised():
 
 
 def test_a_depth_model_is_asked_one_call_at_a_time_unless_it_answers_several():
-    class Counting(Estimator):
-        lock, under_way, most = threading.Lock(), 0, 0
+    class Local(Estimator):
+        busy = threading.Lock()
 
         def estimate(self, result, *, camera, seed):
-            with self.lock:
-                self.under_way += 1
-                self.most = max(self.most, self.under_way)
-            time.sleep(0.01)
-            with self.lock:
-                self.under_way -= 1
+            assert self.busy.acquire(blocking=False), "two estimates at the same time"
+            try:
+                time.sleep(0.005)
+                return super().estimate(result, camera=camera, seed=seed)
+            finally:
+                self.busy.release()
+
+    class Remote(Estimator):
+        at_once, meeting = 8, threading.Barrier(2, timeout=60)
+
+        def estimate(self, result, *, camera, seed):
+            if camera is VIEWS[2].camera or camera is VIEWS[3].camera:  # of two rooms
+                self.meeting.wait()
             return super().estimate(result, camera=camera, seed=seed)
 
-    class Concurrent(Counting):
-        at_once = 8
-
-    local, remote = Counting(), Concurrent()
-    assert_same(paint(Several(8), depth=local), one_by_one())
-    assert_same(paint(Several(8), depth=remote), one_by_one())
-    assert (local.most, remote.most > 1) == (1, True)
+    for depth in (Local(), Remote()):
+        assert_same(paint(Several(8), depth=depth), one_by_one())
 
 
 @pytest.mark.parametrize("kind", [OneAtATime, functools.partial(Several, 3)])
@@ -257,3 +261,28 @@ def test_anchors_are_the_first_rooms_bootstraps():
     assert sum(step.reference is None for part in scene_order(plain).rooms for step in part.steps) == 3
     with pytest.raises(ValueError, match="without views"):
         scene_order(())
+
+
+def test_images_of_finished_rooms_are_let_go():
+    """What stays in memory is bounded by the rooms under way, not by the scene."""
+    alive = []
+
+    class Watched(OneAtATime):
+        def generate(self, request):
+            gc.collect()
+            alive.append(sum(image() is not None for image in archive.images))
+            return super().generate(request)
+
+    class Forgetful(Callbacks):
+        def __init__(self):
+            super().__init__()
+            self.images = []
+
+        def store(self, view, painted, gbuffer):
+            self.images.append(weakref.ref(painted.rgb))
+
+    archive = Forgetful()
+    paint(Watched(), archive)
+    assert alive[0] == 0
+    assert max(alive) <= 2 + 2  # the anchors, and of the last room what was painted before its last view
+    assert alive[6] == 2  # the closet's first view: of hall and library only the anchors are left

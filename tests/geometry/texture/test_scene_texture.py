@@ -98,3 +98,11 @@ def test_the_joined_atlas_is_that_of_one_view_after_the_other():
     for name in ("weight", "color"):
         np.testing.assert_array_equal(getattr(joined, name)[~both], getattr(atlas, name)[~both])
         np.testing.assert_allclose(getattr(joined, name)[both], getattr(atlas, name)[both], rtol=1e-5)  # float32 in another order
+
+
+def test_a_scene_without_surfaces_has_parts_too():
+    bare = build_atlas(build_structure(two_rooms()), 0.05, np.full(len(house()[0].faces), -1))
+    assert len(bare.chart_start) == 0
+    texture = SceneTexture(bare, HALL)
+    texture.finish(STUDY, texture.part(STUDY))
+    assert len(texture.join().weight) == 0

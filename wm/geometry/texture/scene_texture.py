@@ -82,7 +82,7 @@ def _part(atlas: Atlas, charts: np.ndarray) -> Atlas:
         chart_start=np.cumsum(texels) - texels,
         face_chart=place[atlas.face_chart],
         **{name: getattr(atlas, name)[charts] for name in by_chart},
-        **{name: np.concatenate([getattr(atlas, name)[run] for run in flat]) for name in by_texel},
+        **{name: np.concatenate([getattr(atlas, name)[run] for run in (slice(0), *flat)]) for name in by_texel},
     )
 
 
