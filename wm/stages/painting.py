@@ -25,6 +25,8 @@ from wm.types import SceneObject, View
 
 SCAFFOLD = "scaffold.glb"
 SUMMARY = "stages/paint.json"
+_ORDER = "anchors first, then each room by itself"
+"""Part of the key: views of folders of older versions were painted in another order."""
 _NOTED = ("model", "model_version", "seed")
 """What the manifest says of how a view was made; `views/*.json` says all of it."""
 
@@ -63,7 +65,7 @@ def paint_key(run: RunContext, scene: Scene) -> str:
     """The key of every entry of the painting."""
     config = run.config
     shown = (config.cameras, config.texture, config.condition, config.verify, config.finish, config.light)
-    return run.key("paint", scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
+    return run.key("paint", _ORDER, scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
 
 
 def _entry(view: View) -> str:
