@@ -241,7 +241,7 @@ def test_runs_of_a_sweep_that_would_share_a_folder_are_told_how_not_to(tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("group, named", [("preset", "${preset}"), ("image", "${hydra:runtime.choices.image}")])
+@pytest.mark.parametrize("group, named", [("preset", "${preset}"), ("variant", "${hydra:runtime.choices.variant}")])
 def test_runs_of_a_sweep_lie_where_the_output_says_for_each(tmp_path, group, named):
     two = run.options(group)[:2]
     done = command("-m", "+scene=gothic", f"{group}={','.join(two)}", f"output=runs/{named}", cwd=tmp_path, action=WRITES)

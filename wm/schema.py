@@ -232,7 +232,7 @@ class AnswersConfig:
 
     folder: str = setting("outputs/answers", "Folder of the answers; runs and machines can share it. It holds no secret.")
     replay: str = choice(
-        "auto", ("auto", "only", "off"), "auto looks answers up and keeps new ones; only sends nothing; off asks everything anew."
+        "auto", ("auto", "only", "off"), "Kept answers: auto uses them and keeps new ones, only sends nothing, off asks anew."
     )
     patience: float = number(900.0, 0, 86400, "How long a request is tried again while its service fails.", unit="s")
 

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 from wm.artifacts.atomic import Writer, is_temporary, write_atomically
 from wm.artifacts.confined import confined
 from wm.artifacts.digests import file_digest, json_text
-from wm.artifacts.manifest import LOCK, MANIFEST, Manifest, ManifestDamage, differences, read_manifest
+from wm.artifacts.manifest import LOCK, MANIFEST, Loan, Manifest, ManifestDamage, differences, read_manifest
 from wm.artifacts.timings import TIMINGS, read_rows
 from wm.console import say as to_console
 from wm.errors import ArtifactError
@@ -28,8 +28,8 @@ except ImportError:  # Windows has no flock: there the folder is not locked
 _TELLING = ("config.scene.name", "config.preset", "config.variant", "seed")
 """Of what may differ between two configurations, what tells most: a preset brings a dozen others with it."""
 
-Lender = Callable[[str, str, pathlib.Path], list[str]]
-"""Brings the files of an entry (its name, its key) into a folder from elsewhere; an empty list where that cannot be done."""
+Lender = Callable[[str, str, pathlib.Path], Loan | None]
+"""Brings the files of an entry (its name, its key) into a folder from elsewhere; None where that cannot be done."""
 
 
 class RunFolder:
@@ -90,10 +90,10 @@ class RunFolder:
         return True
 
     def _borrows(self, name: str, key: str) -> bool:
-        files = [] if self._lend is None else self._lend(name, key, self.path)
-        if files:
-            self.record(name, key, files)
-        return bool(files)
+        loan = None if self._lend is None else self._lend(name, key, self.path)
+        if loan is not None:
+            self.record(name, key, list(loan.files), loan.note)
+        return loan is not None
 
     def save(
         self, name: str, key: str, files: Mapping[str, Writer | bytes | str], note: Mapping[str, Any] | None = None
