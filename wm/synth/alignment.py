@@ -67,7 +67,7 @@ def aligned_depth(
     finite = np.isfinite(estimate)
     both = np.flatnonzero(valid & finite)
     some = both[:: max(len(both) // POINTS, 1)]
-    drift = np.ones(depth.shape)
+    drift, aligned = np.ones(depth.shape), np.zeros(depth.shape)
     for _ in range(FIELD_ROUNDS):
         drifted = depth.ravel()[some] * drift.ravel()[some]
         scale, shift = align_depth(estimate.ravel()[some], drifted, quantile)
