@@ -8,7 +8,7 @@ import pytest
 from tests.synth.recording import recorded, with_recording
 from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
-from wm.schema import RunConfig
+from wm.schema import RunConfig, VerifySettings
 from wm.synth.registry import GROUPS, backend_module, mismatches
 from wm.validate import ConfigError, validate_config
 
@@ -74,6 +74,19 @@ def test_a_profile_of_an_image_model_changes_flaws_and_nothing_else(profile):
     assert changed == {f"image.{flaw}" for flaw in FLAWS}
     assert all(flawed[key] > plain[key] for key in changed)
     assert sum(flawed[f"image.{kind}"] for kind in KINDS) < 1
+
+
+@pytest.mark.parametrize("depth", sorted(CHOICES["depth"]))
+def test_only_real_depth_models_change_how_images_are_verified_and_the_user_has_the_last_word(depth):
+    def verification(*arguments):
+        return leaves(load_config(["+scene=gothic", f"depth={depth}", "image=nano_banana_pro", *arguments]).verify)
+
+    off = ["verify.enabled=false"] if depth == "procedural" else []
+    plain, chosen = leaves(VerifySettings()), verification(*off)
+    changed = {key for key, value in chosen.items() if value != plain[key]}
+    assert changed == ({"enabled"} if depth == "procedural" else {"field", "max_disagreement", "min_recall"})
+    assert verification(*off, "verify.field=1", "verify.min_recall=0.5") == chosen | {"field": 1, "min_recall": 0.5}
+    assert verification("variant=no_edge_recall") == chosen | {"enabled": False}
 
 
 @functools.cache

@@ -125,6 +125,9 @@ class VerifySettings:
         "Least recall of an image; sound ones reach 0.40 and more in every view of the five scenes (experiments/verification).",
     )
     tolerance: float = number(0.1, 0, 10, "Share of the scaffold's depth beyond which an estimate disagrees with it.")
+    field: int = number(
+        0, 0, 8, "Degree of the smooth drift of an estimate's scale over the image that is no disagreement; 0: none."
+    )
     max_disagreement: float = number(
         0.0012, 0, 1, "Share of the image that may disagree; 1: recall alone decides, as in the paper."
     )

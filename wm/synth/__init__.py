@@ -13,6 +13,7 @@
     sights         the doors and windows that a view shows, in words
     canny          depth edges
     alignment      depth estimates brought to the scale and shift of the scaffold
+    scale_field    the drift of an estimate's scale over the image
     verify         whether an image keeps the structure of the scaffold
     agreement      the pixels at which an image that failed may still be used
     attempt        paint_view: one view generated, verified, and tried again

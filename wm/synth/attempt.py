@@ -68,6 +68,7 @@ def paint_view(
     """
     edges = binding_edges(shown, request.condition, settings)
     held, adds = compared_depth(shown, request.condition, settings), request.condition.objects != "textured"
+    glass = near_glass(request.condition, settings)
     condition = to_bytes(request.condition.rgb)
     refusals: list[str] = []
     best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
@@ -81,7 +82,7 @@ def paint_view(
         rgb = to_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
         estimate = _estimate(depth, result, request) if settings.enabled else None
-        verdict = verify(edges, estimate, settings, depth=held, adds=adds)
+        verdict = verify(edges, estimate, settings, depth=held, adds=adds, glass=glass)
         painted = PaintedView(
             rgb=rgb,
             mask=np.ones(shown.hit.shape, bool),
@@ -99,7 +100,7 @@ def paint_view(
             best = (near, painted, estimate)
     if best is None:
         return _refused(request, condition, reference, refusals)
-    mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
+    mask = agreement(shown.depth, shown.hit, edges, best[2], settings, glass)
     return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
 
 
@@ -133,24 +134,33 @@ def _nearness(estimate: np.ndarray | None, verdict: Verdict) -> tuple[bool, floa
 
 
 def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Bool[np.ndarray, "h w"]:
-    """The depth edges of the conditioning scaffold that an image must have. Edges of boxes are left out."""
-    edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
-    if condition.objects != "boxes" or condition.object is None:
-        return edges
-    return edges & ~_near_boxes(condition, settings)
+    """The depth edges of the conditioning scaffold that an image must have. Those of boxes and of glass are left out."""
+    return depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high) & ~_open(shown, condition, settings)
 
 
 def compared_depth(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Float[np.ndarray, "h w"]:
-    """The depth that an image is held to: that of the conditioning scaffold; 0 near boxes, since furniture does not fill them."""
-    if condition.objects != "boxes" or condition.object is None:
-        return shown.depth
-    return np.where(_near_boxes(condition, settings), np.float32(0), shown.depth)
+    """The depth that an image is held to: that of the conditioning scaffold; 0 near glass, and near boxes, since furniture does
+    not fill them."""
+    return np.where(_open(shown, condition, settings), np.float32(0), shown.depth)
 
 
-def _near_boxes(condition: Condition, settings: VerifySettings) -> np.ndarray:
-    assert condition.object is not None
-    radius = dilation_radius(settings, condition.object.shape[1])
-    return np.asarray(maximum_filter(condition.object, 2 * radius + 1)).astype(bool)
+def near_glass(condition: Condition, settings: VerifySettings) -> Bool[np.ndarray, "h w"] | None:
+    """Pixels at or beside a window pane or a mirror, by the reach of an edge; None if the condition tells of none."""
+    return None if condition.glass is None else _near(condition.glass, settings)
+
+
+def _open(shown: GBuffer, condition: Condition, settings: VerifySettings) -> np.ndarray:
+    """[h, w] bool: pixels at which the scaffold does not say what depth an estimate should have."""
+    glass = near_glass(condition, settings)
+    left = np.zeros(shown.hit.shape, bool) if glass is None else glass
+    if condition.objects == "boxes" and condition.object is not None:
+        left = left | _near(condition.object, settings)
+    return left
+
+
+def _near(mask: np.ndarray, settings: VerifySettings) -> np.ndarray:
+    radius = dilation_radius(settings, mask.shape[1])
+    return np.asarray(maximum_filter(mask, 2 * radius + 1)).astype(bool)
 
 
 def as_float(rgb: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w 3"]:

@@ -46,6 +46,7 @@ class Condition:
     objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none
     object: np.ndarray | None = None  # [h, w] bool: where the scaffold has an object or a box; None for nowhere
     wall_texture: bool = True  # whether the scaffold shows the texture that finished views have left on it
+    glass: np.ndarray | None = None  # [h, w] bool: where the scaffold has a window pane or a mirror; None for nowhere
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -8,7 +8,9 @@ Recall is computed over the whole image, so that one missing chair hardly change
 therefore also compared with the scaffold's depth: the aligned estimate may disagree with it in only a small share of the image.
 Where the condition leaves the furniture to the model (boxes, none), what it adds stands in front of the scaffold, so only what
 lies behind it disagrees: a wall that is gone, or front and back confused, whose edges are all in their places. A pixel without an
-estimate always counts as one that disagrees.
+estimate counts as one that disagrees.
+
+Window panes and mirrors are left out (`glass`): an estimate may tell their own depth or that of what is seen through or in them.
 """
 
 import dataclasses
@@ -41,6 +43,7 @@ def verify(
     *,
     depth: Float[np.ndarray, "h w"] | None = None,
     adds: bool = False,
+    glass: Bool[np.ndarray, "h w"] | None = None,
 ) -> Verdict:
     """Verifies an image by the depth estimated from it.
 
@@ -50,6 +53,7 @@ def verify(
       settings: thresholds; if `enabled` is False, every image passes.
       depth: the scaffold's depth, 0 where nothing is hit or nothing is compared; None for the paper's test, by edges alone.
       adds: whether the image may add things in front of the scaffold.
+      glass: pixels of which an estimate may say anything or nothing; `scaffold_edges` and `depth` leave them out already.
 
     Raises:
       ValueError: the estimate and the scaffold's edges differ in size.
@@ -61,9 +65,10 @@ def verify(
     if estimate.shape != scaffold_edges.shape:
         raise ValueError(f"the depth estimate is {estimate.shape}; the view is {scaffold_edges.shape}")
     radius = dilation_radius(settings, scaffold_edges.shape[1])
-    edges = depth_edges(estimate, np.isfinite(estimate), low=settings.low, high=settings.high)
+    edges = image_edges(estimate, glass, settings)
     recall = edge_recall(scaffold_edges, edges, radius)
-    apart = _apart(depth, estimate, radius, settings, adds)
+    unknown = ~np.isfinite(estimate) if glass is None else ~np.isfinite(estimate) & ~glass
+    apart = _apart(depth, estimate, unknown, radius, settings, adds)
     enough = recall is None or recall >= settings.min_recall
     close = apart is None or apart <= settings.max_disagreement
     reasons = (
@@ -79,14 +84,24 @@ def verify(
     return Verdict(passed=enough and close, recall=recall, disagreement=apart, reason="; ".join(reasons))
 
 
+def image_edges(
+    estimate: Float[np.ndarray, "h w"], glass: Bool[np.ndarray, "h w"] | None, settings: VerifySettings
+) -> Bool[np.ndarray, "h w"]:
+    """The depth edges of an image. Its depth range is that of what is not glass, or else a far sight would flatten the room."""
+    finite = np.isfinite(estimate)
+    if glass is not None and (finite & ~glass).any():
+        ranged = estimate[finite & ~glass]
+        estimate = np.clip(estimate, ranged.min(), ranged.max())
+    return depth_edges(estimate, finite, low=settings.low, high=settings.high)
+
+
 def _apart(
-    depth: np.ndarray | None, estimate: np.ndarray, radius: int, settings: VerifySettings, adds: bool
+    depth: np.ndarray | None, estimate: np.ndarray, unknown: np.ndarray, radius: int, settings: VerifySettings, adds: bool
 ) -> float | None:
-    """Share of the image that disagrees with `depth` or has no estimate. If `depth` is None: the latter, or None if that is 0."""
-    unknown = ~np.isfinite(estimate)
+    """Share of the image that disagrees with `depth` or is unknown. If `depth` is None: the latter, or None if that is 0."""
     if depth is None:
         return float(unknown.mean()) if unknown.any() else None
-    apart = disagreement(depth, estimate, radius=radius, tolerance=settings.tolerance, adds=adds)
+    apart = disagreement(depth, estimate, radius=radius, tolerance=settings.tolerance, adds=adds, field=settings.field)
     return float((apart | unknown).mean() if adds else apart.mean())
 
 
