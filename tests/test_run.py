@@ -12,6 +12,7 @@ import pytest
 from wm import run
 from wm.errors import InputError
 from wm.geometry import PlanError, Violation
+from wm.services.faults import BudgetError
 
 WRITES = """
     import json, pathlib
@@ -141,6 +142,7 @@ def test_hydra_may_say_where(door, tmp_path):
         (OSError(errno.EROFS, "Read-only file system", "plan.json"), 1, "plan.json: no permission"),
         (RuntimeError("the painter\n  fell ill"), 1, "RuntimeError: the painter; fell ill (debug=true shows where)"),
         (IndexError(), 1, "IndexError"),
+        (BudgetError("budget.usd=1 would be exceeded"), 1, "wm: budget.usd=1 would be exceeded\n"),
         (InputError("room hall: no free spot for a camera"), 2, "room hall: no free spot for a camera"),
         (RuntimeError("\n".join(f"line {k}" for k in range(200))), 1, "line 11; and 188 more"),
         (

@@ -119,7 +119,10 @@ def test_the_estimate_counts_attempts_and_what_is_side_by_side(tmp_path, paid_im
     config = configured(tmp_path, "http://127.0.0.1:9")
     services = Services(prices=pipeline.open_services(config, tmp_path).prices, stage="plan")
     (row,) = expected(config, services)
-    assert (row.stage, row.requests, row.usd, row.seconds) == ("paint", 28, 7.0, 56.0)
+    assert (row.stage, row.requests, row.usd, row.seconds) == ("paint", 5, 1.25, 20.0)  # one room: one request after the other
+    config.scene.rooms = ["bedroom", "hall", "study"]
+    (row,) = expected(config, services)
+    assert (row.requests, row.seconds) == (3 * 5 + 2 * 2, 40.0)  # two doors, and two of the three rooms at the same time
     config.verify.enabled = True
     services.views = 10
     (row,) = expected(config, services)
@@ -127,6 +130,36 @@ def test_the_estimate_counts_attempts_and_what_is_side_by_side(tmp_path, paid_im
     assert "3.75 USD in all; no limit is set (budget.usd, budget.requests)" in announcement(config, services)
     services.stage = "report"
     assert not [line for line in announcement(config, services).splitlines() if line.startswith("paint")]
+
+
+def test_plans_follow_one_another_so_their_time_adds_up(tmp_path, paid_image, monkeypatch):
+    monkeypatch.setattr(PaidImage, "propose", PaidImage.generate, raising=False)  # it may then pass for a language model
+    config = configured(tmp_path, "http://127.0.0.1:9")
+    config.language = config.image
+    services = Services(prices=pipeline.open_services(config, tmp_path).prices, stage="plan")
+    plan, _ = expected(config, services)
+    assert (plan.stage, plan.requests, plan.seconds) == ("plan", 2, 8.0)
+
+
+def test_the_cost_is_said_again_only_where_it_is_known_better(tmp_path, paid_image, capsys):
+    services = pipeline.open_services(configured(tmp_path, "http://127.0.0.1:9"), tmp_path)
+    for services.stage in ("plan", "furnish", "paint"):
+        services.announce()
+    assert capsys.readouterr().out.count("before models are paid") == 1
+    services.views = 3
+    services.announce()
+    assert "paint  tint-1  3 requests" in capsys.readouterr().out
+
+
+def test_a_run_that_goes_on_says_how_much_of_its_budget_is_spent(tmp_path, paid_image):
+    config = configured(tmp_path, "http://127.0.0.1:9", budget=BudgetConfig(usd=2.0, requests=9))
+    services = pipeline.open_services(config, tmp_path)
+    services.stage = "paint"
+    assert "limited by budget.usd=2 and budget.requests=9" in announcement(config, services)
+    row = {"key": "k", "stage": "plan", "backend": "lab", "model": "m", "usd": 0.001, "paid": True, "seconds": 1.0}
+    services.ledger.add(row)
+    said = "limited by budget.usd=2 (below 0.01 USD spent) and budget.requests=9 (1 spent)"
+    assert said in announcement(config, services)
 
 
 def test_an_offline_run_asks_nothing_and_leaves_nothing(tmp_path):

@@ -26,6 +26,7 @@ from wm.cli.command_line import quoted, scene_name, translated
 from wm.environment import EnvironmentText, environment_values, masked
 from wm.errors import InputError
 from wm.schema import RunConfig
+from wm.services.faults import ServiceError
 from wm.validate import ConfigError, validate_config
 
 LINES = 12
@@ -152,7 +153,7 @@ def explain(error: BaseException) -> str:
         return _unknown(str(key), getattr(cause, "object_type", None))
     if key is not None:
         return f"{key}: {one_line(str(cause).splitlines()[0])}"
-    if isinstance(error, InputError | HydraException | OmegaConfBaseException):
+    if isinstance(error, InputError | ServiceError | HydraException | OmegaConfBaseException):
         return one_line(str(error)) or type(error).__name__
     return f"{type(error).__name__}: {one_line(str(error))} (debug=true shows where)"
 
