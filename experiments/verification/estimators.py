@@ -149,9 +149,9 @@ def table(rows: list[dict]) -> Iterator[dict]:
 def tests():
     yield "paper, recall < 0.6", lambda row: low(row["paper"], 0.6)
     for name, settings in LIMITS.items():
-        for least in (0.35, 0.25):
+        for least in (0.35, 0.15):
             yield f"{name}, recall < {least}", lambda row, n=name, r=least: low(row[f"{n} recall"], r)
-        for limit in (0.0012, 0.002, 0.003):
+        for limit in (0.0012, 0.0015, 0.003):
             yield f"{name}, apart > {limit:.2%}", lambda row, n=name, m=limit: row[f"{n} apart"] > m
         yield (
             f"{name}, as set",
