@@ -187,11 +187,12 @@ def test_offline_models_that_go_by_what_was_drawn_are_refused_beside_an_image_mo
         return "; ".join(mismatches(with_recording(load_config(["+scene=gothic", *arguments]), *groups)))
 
     assert "depth backend 'wm.offline.depth.estimator' needs what image backend 'recording_image' does not tell" in faults()
+    assert "wm --help depth lists them" in faults() and faults().endswith("verify.enabled=false paints without one")
     assert faults("verify.enabled=false") == faults(groups=("image", "depth")) == ""
     both = faults("objects=lifted", "verify.enabled=false")
     assert "depth backend" in both and "segmentation backend 'wm.offline.segmentation.drawn'" in both
     one = faults("objects=lifted", groups=("image", "depth"))
-    assert "depth backend" not in one and "choose another segmentation=NAME, or an image=NAME that tells it" in one
+    assert "depth backend" not in one and "choose another segmentation=NAME (wm --help segmentation lists them), or an" in one
     assert faults("objects=lifted", "furnish.enabled=false", groups=("image", "depth")) == ""
 
 

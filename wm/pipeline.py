@@ -175,11 +175,19 @@ def _summary(context: RunContext, metrics: dict) -> str:
             *again,
             f"{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
             _times(context),
-            *filter(None, [paid(context.services)]),
+            *filter(None, [paid(context.services), _rejected(metrics["yield"])]),
             f"held-out: {held_out}" if held_out else "held-out: not measured",
             f"results: {where}",
         ]
     )
+
+
+def _rejected(accepted: float | None) -> str:
+    """What verification made of the images, where it did not accept all."""
+    if accepted is None or accepted == 1:
+        return ""
+    share = METRICS["yield"].text(accepted)
+    return f"verification accepted {share} of the views; of the others only what agrees with the scaffold is used"
 
 
 def _times(context: RunContext) -> str:

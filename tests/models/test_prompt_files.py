@@ -71,7 +71,7 @@ def test_a_file_of_the_users_takes_the_place_of_ours(folder):
         ("place.md", "a\n{% if %}", "place.md, line 2: "),
         ("palce.md", "x", "palce.md takes the place of no prompt of group/family; it has place.md, rules.md"),
         ("place.md", b"\xff", "place.md: cannot be read"),
-        ("notes.txt", "x", "mine has no file such as place.md"),
+        ("notes.txt", "x", r"\.prompts=.*mine: no file such as place\.md is there"),
     ],
 )
 def test_a_file_that_cannot_be_used_is_named_before_anything_is_asked(folder, name, text, fault):
@@ -81,7 +81,7 @@ def test_a_file_that_cannot_be_used_is_named_before_anything_is_asked(folder, na
 
 
 def test_a_folder_that_is_not_there_is_named(folder):
-    with pytest.raises(PromptError, match="nowhere is not a folder"):
+    with pytest.raises(PromptError, match=r"\.prompts=.*nowhere: no such folder"):
         Prompts("group/family", str(folder / "nowhere"))
 
 

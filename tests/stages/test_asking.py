@@ -162,6 +162,18 @@ def test_a_run_that_goes_on_says_how_much_of_its_budget_is_spent(tmp_path, paid_
     assert said in announcement(config, services)
 
 
+def test_keys_that_are_not_set_are_named_before_anything_is_paid(tmp_path, paid_image, monkeypatch):
+    vars(sys.modules["paid_image"])["secrets"] = lambda config: ["PAINTERS_KEY", "OTHER_KEY"]
+    monkeypatch.setenv("OTHER_KEY", "a key")
+    config = configured(tmp_path, "http://127.0.0.1:9")
+    services = pipeline.open_services(config, tmp_path)
+    services.stage = "plan"
+    said = announcement(config, services)
+    assert said.endswith("\npaint will stop: the environment variable PAINTERS_KEY is not set") and "OTHER_KEY" not in said
+    monkeypatch.setenv("PAINTERS_KEY", "another")
+    assert "will stop" not in announcement(config, services) and "another" not in announcement(config, services)
+
+
 def test_an_offline_run_asks_nothing_and_leaves_nothing(tmp_path):
     config = load_config([*SMALL, f"answers.folder={tmp_path / 'answers'}", "until=paint"])
     pipeline.run(config, tmp_path / "run")

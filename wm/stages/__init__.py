@@ -3,6 +3,7 @@
     run_context     RunContext: the configuration, the run folder and the meter, which every stage needs
     asking          open_services: what backends ask models through, and what that will cost
     scene           build_scene: the stages plan, structure, furnish and cameras
+    unfurnished     unfurnished: rooms that stay empty although their furniture should come out of images
     painting        paint: an image for every training view
     heldout         render_heldout: the true image of each held-out view
     reconstruction  reconstruct: gaussians from the painted views

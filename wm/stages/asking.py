@@ -22,7 +22,7 @@ from wm.services.retries import RetryPolicy
 from wm.services.services import Services
 from wm.services.store import AnswerStore
 from wm.synth.backends import ServedBackend
-from wm.synth.registry import backend_module, make_backend
+from wm.synth.registry import backend_module, make_backend, missing_secrets
 
 BOOTSTRAP_VIEWS = 2
 """Views of a room beside those that the configuration counts (wm.geometry.cameras.views)."""
@@ -94,7 +94,14 @@ def announcement(config: RunConfig, services: Services) -> str:
     limit = f"limited by {' and '.join(limits)}" if limits else "no limit is set (budget.usd, budget.requests)"
     table = tabulate(cells, tablefmt="plain", colalign=("left", "left", "right", "right", "right"), disable_numparse=True)
     head = f"before models are paid (prices of {config.prices.as_of}; answers that are kept cost nothing):"
-    return f"{head}\n{table}\n{total}; {limit}"
+    return "\n".join([head, table, f"{total}; {limit}", *_stops(config, rows)])
+
+
+def _stops(config: RunConfig, rows: list[Expected]) -> Iterator[str]:
+    """A line for each secret that is not set, with the first stage that will stop for it."""
+    stages = {name: row.stage for row in reversed(rows) for name in missing_secrets(getattr(config, row.group))}
+    for name, stage in stages.items():
+        yield f"{stage} will stop: the environment variable {name} is not set"
 
 
 def expected(config: RunConfig, services: Services, first: str = STAGES[0]) -> Iterator[Expected]:

@@ -23,6 +23,7 @@ from wm.stages import edits
 from wm.stages.arranged import ArrangementError, arranged, is_json
 from wm.stages.hearing import hear
 from wm.stages.run_context import RunContext
+from wm.stages.unfurnished import unfurnished
 from wm.synth.backends import ImageDrivenBackend, SceneContext
 from wm.synth.furnished import Furnisher, bare_context, make_furnisher
 from wm.synth.lifting.drawings import drawing_files
@@ -165,6 +166,9 @@ def _made(run: RunContext, context: SceneContext, furnisher: Furnisher) -> tuple
         console.say(f"furnish: no use is known of rooms named {unknown}; the offline backends furnish them sparsely")
     with run.bar("furnish", len(context.plan.rooms)) as bar:
         objects = furnisher.furnish(context, done=bar.update)
+    if isinstance(furnisher.backend, ImageDrivenBackend):
+        for line in unfurnished(run.folder.path, context.plan, objects):
+            console.say(f"furnish: {line}")
     return with_ids(objects, rooms)
 
 

@@ -14,12 +14,14 @@ The key of a stage whose result depends on a backend contains its path, its sett
     USES                    -> the other groups of backends that it uses
     SERVED                  -> True if its backends ask a model through the run's services (ServedBackend); `make` then needs no
                                scene to say what a request costs
+    secrets(settings)       -> names of the environment variables that its requests need; a run says at once which are not set
     heard(theme)            -> which words of a theme it uses and which it does not know (HeardTheme)
     reads(folder)           -> JSON values that stand for the files of a run folder that it reads, for the key of its stage
 """
 
 import dataclasses
 import importlib
+import os
 import pathlib
 from collections.abc import Iterator, Mapping
 from types import ModuleType
@@ -122,6 +124,13 @@ def backend_key(settings: BackendSettings, folder: pathlib.Path | None = None) -
     return settings, module.VERSION, *reads, *_files_read(settings)
 
 
+def missing_secrets(settings: BackendSettings) -> list[str]:
+    """Names of the environment variables that a backend's requests need and that are not set."""
+    module = backend_module(settings.backend)
+    needed = module.secrets(_own(settings, module)) if hasattr(module, "secrets") else []
+    return [name for name in needed if not os.environ.get(name, "").strip()]
+
+
 def close_backend(backend: Any) -> None:
     """Frees the resources of a backend, if it holds any."""
     if isinstance(backend, ClosableBackend):
@@ -166,15 +175,23 @@ def mismatch(group: str, settings: BackendSettings, image: BackendSettings) -> l
     if not missing:
         return []
     needs = f"{group} backend {settings.backend!r} needs what image backend {image.backend!r} does not tell"
-    return [f"{needs} ({', '.join(sorted(missing))}): choose another {group}=NAME, or an image=NAME that tells it"]
+    others = f"choose another {group}=NAME (wm --help {group} lists them), or an image=NAME that tells it"
+    return [f"{needs} ({', '.join(sorted(missing))}): {others}"]
 
 
 def mismatches(config: RunConfig) -> list[str]:
     """Error messages for the backends, among those that the run will use, that do not suit the selected image backend."""
-    asked = {"depth"} if config.verify.enabled else set()
+    furnishing: set[str] = set()
     if config.furnish.enabled:
-        asked |= {"objects", *getattr(backend_module(config.objects.backend), "USES", ())}
-    return [fault for group in GROUPS if group in asked for fault in mismatch(group, getattr(config, group), config.image)]
+        furnishing = {"objects", *getattr(backend_module(config.objects.backend), "USES", ())}
+    asked = furnishing | ({"depth"} if config.verify.enabled else set())
+    without = {"depth": "; verify.enabled=false paints without one"} if "depth" not in furnishing else {}
+    return [
+        fault + without.get(group, "")
+        for group in GROUPS
+        if group in asked
+        for fault in mismatch(group, getattr(config, group), config.image)
+    ]
 
 
 def misplaced(config: RunConfig) -> Iterator[str]:

@@ -58,6 +58,11 @@ class Settings(BackendSettings):
     requests_at_once: int = number(8, 1, 256, "Requests that are under way at the same time.", **BESIDE)
 
 
+def secrets(config: Settings) -> list[str]:
+    """Names of the environment variables that hold what a request needs."""
+    return [_KEY]
+
+
 def make(config: Settings, context: SceneContext | None = None) -> DrawingModel:
     """The backend. It does not use the scene.
 

@@ -71,6 +71,11 @@ class Settings(BackendSettings):
     requests_at_once: int = number(8, 1, 256, "Requests that are under way at the same time.", **BESIDE)
 
 
+def secrets(config: Settings) -> list[str]:
+    """Names of the environment variables that hold what a request needs."""
+    return [config.key] if config.key else []
+
+
 def make(config: Settings, context: SceneContext | None = None) -> SpeakingModel:
     """The backend. It does not use the scene.
 
