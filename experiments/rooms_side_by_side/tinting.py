@@ -15,7 +15,8 @@ import numpy as np
 
 from tests.models.loopback import Asked, Loopback, Reply
 from wm.bounds import number, setting
-from wm.codecs import decode_png, encode_png, to_bytes
+from wm.codecs import decode_png, encode_png
+from wm.color import to_bytes
 from wm.schema import BackendSettings
 from wm.services.records import Quote, ServiceAnswer, ServiceRequest
 from wm.services.services import Services
