@@ -8,8 +8,8 @@ import pytest
 from tests.synth.recording import recorded, with_recording
 from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
-from wm.schema import RunConfig, VerifySettings
-from wm.synth.registry import GROUPS, backend_module, mismatches
+from wm.schema import RunConfig
+from wm.synth.registry import GROUPS, backend_module, mismatches, unasked
 from wm.validate import ConfigError, validate_config
 
 SCENES = {"gothic": 6, "scandinavian": 4, "beach_house": None, "roman_estate": None, "clockwork_garden": None}
@@ -194,6 +194,14 @@ def test_offline_models_that_go_by_what_was_drawn_are_refused_beside_an_image_mo
     one = faults("objects=lifted", groups=("image", "depth"))
     assert "depth backend" not in one and "choose another segmentation=NAME (wm --help segmentation lists them), or an" in one
     assert faults("objects=lifted", "furnish.enabled=false", groups=("image", "depth")) == ""
+
+
+def test_models_that_are_chosen_and_never_asked_are_named():
+    assert unasked(load_config(["gothic"])) == unasked(load_config(["gothic", "depth=depth_anything_2"])) == []
+    (line,) = unasked(load_config(["gothic", "segmentation=sam3_text"]))
+    assert "segmentation" in line and "objects=lifted" in line
+    assert unasked(load_config(["gothic", "segmentation=sam3_text", "objects=lifted"])) == []
+    assert len(unasked(load_config(["gothic", "depth=depth_anything_2", "verify.enabled=false"]))) == 1
 
 
 def test_all_faults_are_named_at_once():

@@ -37,7 +37,7 @@ from wm.stages.reporting import METRICS_FILE, REPORT, report
 from wm.stages.run_context import RunContext, StoppedError, versions
 from wm.stages.scene import LAYOUT, Scene, build_scene
 from wm.stages.warm_up import warming_up
-from wm.synth.registry import close_backend, make_backend
+from wm.synth.registry import close_backend, make_backend, unasked
 
 _CLOCKED = {"plan": LAYOUT, "reconstruct": HISTORY}
 """The file of a stage whose content depends on the clock, and which therefore is not part of the stage's entry."""
@@ -76,6 +76,8 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
         services = open_services(config, folder)
         context = RunContext(config=config, folder=store, meter=meter, services=services)
         meter.keep = functools.partial(_keep_timings, folder, ledger=services.ledger)
+        for line in unasked(config):
+            console.say(line)
         try:
             metrics = _run_stages(context)
         except StoppedError:

@@ -56,6 +56,11 @@ def test_help_on_one_thing_says_that_alone(topic, said, not_said):
     ("arguments", "said"),
     [
         (["--help", "fit.stepz"], "fit.stepz: no such group, key or choice; did you mean fit.steps"),
+        (
+            ["--help", "image.requests_at_once"],
+            "is a key of image=nano_banana, nano_banana_pro, openai_images; "
+            "wm --help image.requests_at_once image=nano_banana explains it",
+        ),
         (["--help", "gothik"], "did you mean gothic"),
         (["--help", "image=gan"], "image=gan: no such image; choose one of .*like_closed, like_distilled, .*procedural"),
         (["--completion", "tcsh"], "--completion bash"),

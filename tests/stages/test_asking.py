@@ -158,7 +158,7 @@ def test_a_run_that_goes_on_says_how_much_of_its_budget_is_spent(tmp_path, paid_
     assert "limited by budget.usd=2 and budget.requests=9" in announcement(config, services)
     row = {"key": "k", "stage": "plan", "backend": "lab", "model": "m", "usd": 0.001, "paid": True, "seconds": 1.0}
     services.ledger.add(row)
-    said = "limited by budget.usd=2 (below 0.01 USD spent) and budget.requests=9 (1 spent)"
+    said = "limited by budget.usd=2 (less than 0.01 USD spent) and budget.requests=9 (1 spent)"
     assert said in announcement(config, services)
 
 

@@ -61,11 +61,12 @@ def answer(arguments: Sequence[str], conf: Path) -> str:
     choices = choices_of(folders)
     if any(group in choices and name not in choices[group] for group, name in chosen.items()):
         raise ConfigError(_unknown_choice(chosen, choices))
-    sections = list(sections_of({**default_choices(conf), **chosen}, choices))
+    chosen = {**default_choices(conf), **chosen}
+    sections = list(sections_of(chosen, choices))
     if "--completion" in arguments:
         return completion(topics, sections, choices)
     if topics:
-        return "\n\n".join(_of_topic(topic, sections, choices) for topic in topics)
+        return "\n\n".join(_of_topic(topic, sections, choices, chosen) for topic in topics)
     parts = [_opening(), *(_of_group(group, choices[group]) for group in choices), *map(_of_section, sections), _CLOSING]
     return "\n\n".join(parts)
 
@@ -88,7 +89,7 @@ def _asked(arguments: Sequence[str]) -> tuple[list[str], dict[str, str], list[Pa
     return list(dict.fromkeys(topics)), chosen, folders
 
 
-def _of_topic(topic: str, sections: Sequence[Section], choices: Choices) -> str:
+def _of_topic(topic: str, sections: Sequence[Section], choices: Choices, chosen: Mapping[str, str]) -> str:
     name, _, key = topic.partition(".")
     section = next((section for section in sections if section.name == name), None)
     own = sections[0].keys
@@ -104,7 +105,7 @@ def _of_topic(topic: str, sections: Sequence[Section], choices: Choices) -> str:
     elif not section and not key:
         parts += [f"{group}={name}\n{_file(files[name])}" for group, files in choices.items() if name in files]
     if not parts:
-        raise ConfigError(_unknown_topic(topic, sections, choices))
+        raise ConfigError(_of_another(topic, choices, chosen) or _unknown_topic(topic, sections, choices))
     return "\n\n".join(parts)
 
 
@@ -177,6 +178,17 @@ def _file(path: Path) -> str:
 def _unknown_choice(chosen: Mapping[str, str], choices: Choices) -> str:
     group, name = next((group, name) for group, name in chosen.items() if group in choices and name not in choices[group])
     return f"{group}={name}: no such {group}; {_guess(name, choices[group])}choose one of {', '.join(choices[group])}"
+
+
+def _of_another(topic: str, choices: Choices, chosen: Mapping[str, str]) -> str:
+    """What to say of a key that only backends which are not chosen have; "" if none has it."""
+    group, _, key = topic.partition(".")
+    has = [
+        name
+        for name in choices.get(group, ())
+        if any(section.name == group and key in section.keys for section in sections_of({**chosen, group: name}, choices))
+    ]
+    return f"{topic} is a key of {group}={', '.join(has)}; wm --help {topic} {group}={has[0]} explains it" if has else ""
 
 
 def _unknown_topic(topic: str, sections: Sequence[Section], choices: Choices) -> str:

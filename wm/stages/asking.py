@@ -88,7 +88,7 @@ def announcement(config: RunConfig, services: Services) -> str:
     usd, requests = (f" ({part} spent)" * bool(spent.requests) for part in (_money(spent.usd), spent.requests))
     limits = [f"budget.usd={config.budget.usd:g}{usd}"] if config.budget.usd is not None else []
     limits += [f"budget.requests={config.budget.requests}{requests}"] if config.budget.requests is not None else []
-    cells = [(row.stage, row.quote.model, f"{row.requests} requests", _money(row.usd), _time(row.seconds)) for row in rows]
+    cells = [(row.stage, row.quote.model, _requests(row.requests), _money(row.usd), _time(row.seconds)) for row in rows]
     known = [row.usd for row in rows if row.usd is not None]
     total = f"about {_money(sum(known, 0.0))} in all" + (" for those with a price" if len(known) < len(rows) else "")
     limit = f"limited by {' and '.join(limits)}" if limits else "no limit is set (budget.usd, budget.requests)"
@@ -141,7 +141,7 @@ def paid(services: Services) -> str:
     stages = {stage: services.ledger.spent(stage) for stage in STAGES}
     parts = ", ".join(f"{stage} {part.requests} for {_money(part.usd)}" for stage, part in stages.items() if part.requests)
     unpriced = f" ({spent.unpriced} without a price in conf/prices)" if spent.unpriced else ""
-    return f"paid to models: {spent.requests} requests, {_money(spent.usd)}{unpriced}: {parts}"
+    return f"paid to models: {_requests(spent.requests)}, {_money(spent.usd)}{unpriced}: {parts}"
 
 
 def _quote(group: str, settings: BackendSettings, services: Services) -> Quote | None:
@@ -151,10 +151,14 @@ def _quote(group: str, settings: BackendSettings, services: Services) -> Quote |
     return backend.quote() if isinstance(backend, ServedBackend) else None
 
 
+def _requests(count: int) -> str:
+    return "1 request" if count == 1 else f"{count} requests"
+
+
 def _money(usd: float | None) -> str:
     if usd is None:
         return "no price known"
-    return "below 0.01 USD" if 0 < usd < 0.005 else f"{usd:.2f} USD"
+    return "less than 0.01 USD" if 0 < usd < 0.005 else f"{usd:.2f} USD"
 
 
 def _time(seconds: float | None) -> str:

@@ -179,11 +179,17 @@ def mismatch(group: str, settings: BackendSettings, image: BackendSettings) -> l
     return [f"{needs} ({', '.join(sorted(missing))}): {others}"]
 
 
+def unasked(config: RunConfig) -> list[str]:
+    """A line for each group of models that lift furniture of which one was chosen that the run will not ask."""
+    asked = _furnishing(config) | ({"depth"} if config.verify.enabled else set())
+    idle = [group for group in ("depth", "segmentation", "reconstruction") if group not in asked]
+    served = [group for group in idle if getattr(backend_module(getattr(config, group).backend), "SERVED", False)]
+    return [f"the {group} model that is chosen is not asked in this run; objects=lifted asks it" for group in served]
+
+
 def mismatches(config: RunConfig) -> list[str]:
     """Error messages for the backends, among those that the run will use, that do not suit the selected image backend."""
-    furnishing: set[str] = set()
-    if config.furnish.enabled:
-        furnishing = {"objects", *getattr(backend_module(config.objects.backend), "USES", ())}
+    furnishing = _furnishing(config)
     asked = furnishing | ({"depth"} if config.verify.enabled else set())
     without = {"depth": "; verify.enabled=false paints without one"} if "depth" not in furnishing else {}
     return [
@@ -202,6 +208,11 @@ def misplaced(config: RunConfig) -> Iterator[str]:
             _own(settings, backend_module(settings.backend))
         except BackendError as error:
             yield f"{group}: {error}"
+
+
+def _furnishing(config: RunConfig) -> set[str]:
+    """The groups of backends that the furnish stage asks."""
+    return {"objects", *getattr(backend_module(config.objects.backend), "USES", ())} if config.furnish.enabled else set()
 
 
 def _files_read(settings: BackendSettings) -> Iterator[list[str]]:
