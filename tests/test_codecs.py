@@ -91,7 +91,7 @@ def test_camera_frame_is_nerfstudios_convention():
     T_cam_world[:3, 3] = [-1, -2, -3]
     camera = Camera(T_cam_world=T_cam_world, focal=np.array([10.0, 10.0]), principal=np.array([8.0, 4.0]), width=16, height=8)
     view = View(camera=camera, room=0, kind="bootstrap", name="hall/bootstrap0")
-    frame = codecs.transforms_json([view], ["hall"], "splats.ply")
+    frame = codecs.transforms_json([view], ["hall"])
     matrix = np.array(frame["frames"][0]["transform_matrix"])
     assert np.allclose(matrix[:3, 3], [1, 2, 3])
     assert np.allclose(-matrix[:3, 2], [0, 0, 1])  # looks along -z of its own axes

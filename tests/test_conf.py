@@ -8,7 +8,7 @@ import pytest
 from tests.synth.recording import recorded, with_recording
 from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
-from wm.schema import RunConfig
+from wm.schema import RunConfig, VerifySettings
 from wm.synth.registry import GROUPS, backend_module, mismatches
 from wm.validate import ConfigError, validate_config
 
@@ -24,12 +24,19 @@ VARIANTS = {
     "no_init_no_depth": {"fit.init": "random", "fit.depth_weight": 0.0, "fit.normal_weight": 0.0},
 }
 CHOICES = {
-    "language": {"grammar"},
-    "image": {"procedural", "like_closed", "like_distilled", "flux2_klein", "flux2_klein_4b", "flux2_klein_9b"},
+    "language": {
+        "grammar",
+        *("claude", "claude_opus", "claude_sonnet", "claude_haiku"),
+        *("openai_compatible", "vllm", "llama_cpp", "ollama", "qwen_coder", "gpt_oss"),
+    },
+    "image": {
+        *("procedural", "like_closed", "like_distilled"),
+        *("nano_banana", "nano_banana_pro", "openai_images", "flux2_klein", "flux2_klein_4b", "flux2_klein_9b"),
+    },
     "objects": {"procedural", "lifted"},
-    "depth": {"procedural", "depth_pro", "depth_anything_2"},
-    "segmentation": {"drawn"},
-    "reconstruction": {"templates"},
+    "depth": {"procedural", "depth_pro", "depth_anything_2", "depth_anything_3"},
+    "segmentation": {"drawn", "sam3_text", "sam3_clicks"},
+    "reconstruction": {"templates", "sam3d_objects", "image_to_3d"},
 }
 FLAWS = ("drift", "exposure", "phase", "softness", *KINDS)
 PRESETS = {"draft": (344, 192), "standard": (688, 384), "paper": (1376, 768)}
@@ -56,7 +63,7 @@ def test_the_groups_offer_what_they_should():
 @pytest.mark.parametrize("group", GROUPS)
 def test_every_choice_of_a_group_selects_a_backend_with_its_own_settings(group):
     for name in CHOICES[group]:
-        settings = getattr(load_config(["+scene=gothic", f"{group}={name}"]), group)
+        settings = getattr(load_config(["+scene=gothic", "verify.enabled=false", f"{group}={name}"]), group)
         assert type(settings) is backend_module(settings.backend).Settings
 
 
@@ -67,6 +74,19 @@ def test_a_profile_of_an_image_model_changes_flaws_and_nothing_else(profile):
     assert changed == {f"image.{flaw}" for flaw in FLAWS}
     assert all(flawed[key] > plain[key] for key in changed)
     assert sum(flawed[f"image.{kind}"] for kind in KINDS) < 1
+
+
+@pytest.mark.parametrize("depth", sorted(CHOICES["depth"]))
+def test_only_real_depth_models_change_how_images_are_verified_and_the_user_has_the_last_word(depth):
+    def verification(*arguments):
+        return leaves(load_config(["+scene=gothic", f"depth={depth}", "image=nano_banana_pro", *arguments]).verify)
+
+    off = ["verify.enabled=false"] if depth == "procedural" else []
+    plain, chosen = leaves(VerifySettings()), verification(*off)
+    changed = {key for key, value in chosen.items() if value != plain[key]}
+    assert changed == ({"enabled"} if depth == "procedural" else {"field", "max_disagreement", "min_recall"})
+    assert verification(*off, "verify.field=1", "verify.min_recall=0.5") == chosen | {"field": 1, "min_recall": 0.5}
+    assert verification("variant=no_edge_recall") == chosen | {"enabled": False}
 
 
 @functools.cache
@@ -122,11 +142,11 @@ def test_a_scene_of_ones_own():
         (["+scene=gotik"], "scene=gotik: no such scene; did you mean gothic. choose one of beach_house, .*scandinavian"),
         (["preset=fast"], "preset=fast: no such preset; choose one of draft, paper, standard"),
         (["variant=none"], "variant=none: no such variant; choose one of depth_objects, .*no_pcd_init"),
-        (["image=gan"], "image=gan: no such image; choose one of .*like_closed, like_distilled, procedural"),
+        (["image=gan"], "image=gan: no such image; choose one of .*like_closed, .*procedural"),
         (["image.backend=gan"], "image: backend 'gan' cannot be imported: ModuleNotFoundError"),
         (["depth.backend=wm.types"], "depth: module 'wm.types' is no backend: it has no make, Settings, VERSION"),
         (["language.backend=wm.offline.image.painter"], "language: settings of wm.offline.language.grammar do not suit"),
-        (["segmentation=sam"], "segmentation=sam: no such segmentation; choose one of drawn"),
+        (["segmentation=sam"], "segmentation=sam: no such segmentation; choose one of drawn, sam3_clicks, sam3_text"),
         (["objects.segmentation=drawn"], "objects.segmentation: no such key; objects has backend"),
         (["image.drifft=1"], "image.drifft: no such key; did you mean image.drift. image has backend, drift"),
         (["+image.drifft=1"], "image.drifft: no such key; did you mean image.drift"),
@@ -167,11 +187,12 @@ def test_offline_models_that_go_by_what_was_drawn_are_refused_beside_an_image_mo
         return "; ".join(mismatches(with_recording(load_config(["+scene=gothic", *arguments]), *groups)))
 
     assert "depth backend 'wm.offline.depth.estimator' needs what image backend 'recording_image' does not tell" in faults()
+    assert "wm --help depth lists them" in faults() and faults().endswith("verify.enabled=false paints without one")
     assert faults("verify.enabled=false") == faults(groups=("image", "depth")) == ""
     both = faults("objects=lifted", "verify.enabled=false")
     assert "depth backend" in both and "segmentation backend 'wm.offline.segmentation.drawn'" in both
     one = faults("objects=lifted", groups=("image", "depth"))
-    assert "depth backend" not in one and "choose another segmentation=NAME, or an image=NAME that tells it" in one
+    assert "depth backend" not in one and "choose another segmentation=NAME (wm --help segmentation lists them), or an" in one
     assert faults("objects=lifted", "furnish.enabled=false", groups=("image", "depth")) == ""
 
 
@@ -181,3 +202,10 @@ def test_all_faults_are_named_at_once():
     config.fit.init = "cubes"
     with pytest.raises(ConfigError, match=r"fit\.init='cubes'.*seed=-1"):
         validate_config(config)
+
+
+def test_endless_and_broken_values_are_quoted_in_one_short_line():
+    for value in ("a" * 5000, "\n", "'" + "b" * 5000):
+        with pytest.raises(ConfigError) as caught:
+            load_config(["gothic", f"fit.steps={value}"])
+        assert "\n" not in str(caught.value) and len(str(caught.value)) < 1000

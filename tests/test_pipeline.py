@@ -134,6 +134,27 @@ def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(whole, tmp_pa
     assert (tmp_path / "borrowed/layout.json").is_file()
 
 
+def test_a_stopped_run_names_no_point_cloud_and_says_what_of_a_former_run_stays(whole, tmp_path, capsys):
+    assert json.loads((whole / "cameras.json").read_text())["ply_file_path"] == "points.ply" and (whole / "points.ply").is_file()
+    run(load_config([*SMALL, "until=cameras"]), tmp_path)
+    assert "ply_file_path" not in json.loads((tmp_path / "cameras.json").read_text())
+    assert "former run" not in capsys.readouterr().out
+    run(load_config([*SMALL, "seed=1", "until=plan", "overwrite=true"]), tmp_path)
+    assert "what the former run has left of later stages stays in the folder" in capsys.readouterr().out
+    assert (tmp_path / "cameras.json").exists()
+
+
+def test_furniture_of_the_plan_is_listed_where_nothing_else_is_furnished(tmp_path):
+    room = {"id": "den", "name": "Den", "floor_polygon": [[0, 0], [4, 0], [4, 3], [0, 3]], "openings": []}
+    bed = {"label": "bed", "room": "den", "position": [1.5, 1.5, 0], "size": [1.4, 2, 0.5]}
+    (tmp_path / "own.json").write_text(json.dumps({"metadata": {}, "rooms": [room], "objects": [bed]}))
+    config = [*SMALL, f"plan.file={tmp_path / 'own.json'}", "furnish.enabled=false", "until=furnish"]
+    for _ in range(2):  # the second time they are read back
+        run(load_config(config), tmp_path / "run")
+        (row,) = json.loads((tmp_path / "run/objects.json").read_text())["objects"]
+        assert (row["label"], row["room"], row["size"]) == ("bed", "den", [1.4, 2.0, 0.5])
+
+
 def test_until_a_stage_stops_there_and_the_next_run_goes_on(tmp_path, capsys):
     assert run(load_config([*SMALL, "until=plan"]), tmp_path) == {}
     assert "stopped after plan; the same command without until=plan goes on" in capsys.readouterr().out

@@ -12,6 +12,7 @@ import pytest
 from wm import run
 from wm.errors import InputError
 from wm.geometry import PlanError, Violation
+from wm.services.faults import BudgetError
 
 WRITES = """
     import json, pathlib
@@ -141,6 +142,7 @@ def test_hydra_may_say_where(door, tmp_path):
         (OSError(errno.EROFS, "Read-only file system", "plan.json"), 1, "plan.json: no permission"),
         (RuntimeError("the painter\n  fell ill"), 1, "RuntimeError: the painter; fell ill (debug=true shows where)"),
         (IndexError(), 1, "IndexError"),
+        (BudgetError("budget.usd=1 would be exceeded"), 1, "wm: budget.usd=1 would be exceeded\n"),
         (InputError("room hall: no free spot for a camera"), 2, "room hall: no free spot for a camera"),
         (RuntimeError("\n".join(f"line {k}" for k in range(200))), 1, "line 11; and 188 more"),
         (
@@ -241,7 +243,7 @@ def test_runs_of_a_sweep_that_would_share_a_folder_are_told_how_not_to(tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("group, named", [("preset", "${preset}"), ("image", "${hydra:runtime.choices.image}")])
+@pytest.mark.parametrize("group, named", [("preset", "${preset}"), ("variant", "${hydra:runtime.choices.variant}")])
 def test_runs_of_a_sweep_lie_where_the_output_says_for_each(tmp_path, group, named):
     two = run.options(group)[:2]
     done = command("-m", "+scene=gothic", f"{group}={','.join(two)}", f"output=runs/{named}", cwd=tmp_path, action=WRITES)

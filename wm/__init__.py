@@ -4,7 +4,9 @@
 Importing `wm` itself loads none of its modules. Each imports only those below it (docs/architecture.md):
 
     run           the command line: main, one run, a sweep
+    annotate      the annotation page's command line: main
     cli           between typed words and a checked configuration: composition, help, completion
+    annotation    the page on which a person marks the furniture in a run's drawings
     pipeline      run: the stages of a run in order
     stages        one stage a module, each with its entry in the run folder
     report        report.html, figures, the video, the table that compares runs

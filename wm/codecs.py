@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Float, Num, UInt8
+from jaxtyping import Bool, Float, UInt8
 from PIL import Image
 
 from wm.types import Camera, SceneObject, Texture, View
@@ -31,11 +31,6 @@ OBJECT_AXES = (
 
 FAST = 1
 """zlib's compression level for images. It takes a third of the time of the default level 6; files are a tenth larger."""
-
-
-def to_bytes(rgb: Num[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1], clipped and rounded to 8 bits. An 8-bit image is returned unchanged."""
-    return rgb if rgb.dtype == np.uint8 else np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
 
 
 def encode_png(rgb: UInt8[np.ndarray, "h w 3"]) -> bytes:
@@ -156,13 +151,12 @@ def _pose(view: View, room: str) -> dict[str, Any]:
     }
 
 
-def transforms_json(views: Sequence[View], rooms: Sequence[str], ply: str) -> dict[str, Any]:
-    """nerfstudio's transforms.json of all views: opens in any tool that reads that format. `ply` names a point cloud with colours
-    from which trainers start. `wm.geometry.load_cameras` reads it back."""
+def transforms_json(views: Sequence[View], rooms: Sequence[str]) -> dict[str, Any]:
+    """nerfstudio's transforms.json of all views: opens in any tool that reads that format. `wm.geometry.load_cameras` reads it
+    back."""
     return {
         "camera_model": "OPENCV",
         "depth_unit_scale_factor": DEPTH_UNIT,
-        "ply_file_path": ply,
         "frames": [camera_frame(view, rooms[view.room]) for view in views],
     }
 

@@ -156,7 +156,11 @@ def _earlier_times(folder: pathlib.Path, entries: Iterable[str]) -> Rows:
 def _stopped(context: RunContext) -> str:
     until = context.config.until
     goes_on = f"stopped after {until}; the same command without until={until} goes on"
-    return "\n".join(["", _times(context), *filter(None, [paid(context.services)]), goes_on, f"results: {context.folder.path}"])
+    former = context.folder.overwrites and context.folder.unasked
+    stays = ["what the former run has left of later stages stays in the folder until this run is completed"] if former else []
+    spent = paid(context.services)
+    more = [spent] * bool(spent)
+    return "\n".join(["", _times(context), *more, goes_on, *stays, f"results: {context.folder.path}"])
 
 
 def _summary(context: RunContext, metrics: dict) -> str:
@@ -171,11 +175,19 @@ def _summary(context: RunContext, metrics: dict) -> str:
             *again,
             f"{metrics['rooms']} rooms, {metrics['views']} views, {metrics['gaussians']:,} gaussians",
             _times(context),
-            *filter(None, [paid(context.services)]),
+            *filter(None, [paid(context.services), _rejected(metrics["yield"])]),
             f"held-out: {held_out}" if held_out else "held-out: not measured",
             f"results: {where}",
         ]
     )
+
+
+def _rejected(accepted: float | None) -> str:
+    """What verification made of the images, where it did not accept all."""
+    if accepted is None or accepted == 1:
+        return ""
+    share = METRICS["yield"].text(accepted)
+    return f"verification accepted {share} of the views; of the others only what agrees with the scaffold is used"
 
 
 def _times(context: RunContext) -> str:

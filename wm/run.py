@@ -59,7 +59,6 @@ def main() -> None:
 
 def _main() -> None:
     os.environ["HYDRA_FULL_ERROR"] = "1"  # Hydra then raises to here instead of printing its own report
-    logging.getLogger("jax").setLevel(logging.WARNING)  # Hydra shows what is told, and JAX tells of every accelerator it lacks
     debug = "debug=true" in (argument.lower() for argument in sys.argv)
     try:
         if asks_for_help(sys.argv[1:]):
@@ -124,6 +123,7 @@ def _run_all() -> None:
 
 
 def _run_one(composed: Any) -> None:
+    logging.getLogger().setLevel(logging.WARNING)  # Hydra shows what libraries tell: every accelerator JAX lacks, every request
     config: RunConfig | None = None
     folder = Path(HydraConfig.get().runtime.output_dir)
     try:

@@ -18,6 +18,8 @@ STAGES = ("plan", "structure", "furnish", "cameras", "paint", "heldout", "recons
 BESIDE: dict[str, Any] = {"identity": False}
 """Metadata of a field that changes no stage's result: runs that differ in it alone are the same run."""
 
+READ: dict[str, Any] = {"read": True}
+"""Metadata of a backend's field that names a folder whose files shape its results: stages are made again when they change."""
 
 LONGEST_ROOM_NAME = 200
 """Characters of a room's name: in a programme, in a plan, and in what a language model answers."""
@@ -123,6 +125,9 @@ class VerifySettings:
         "Least recall of an image; sound ones reach 0.40 and more in every view of the five scenes (experiments/verification).",
     )
     tolerance: float = number(0.1, 0, 10, "Share of the scaffold's depth beyond which an estimate disagrees with it.")
+    field: int = number(
+        0, 0, 8, "Degree of the smooth drift of an estimate's scale over the image that is no disagreement; 0: none."
+    )
     max_disagreement: float = number(
         0.0012, 0, 1, "Share of the image that may disagree; 1: recall alone decides, as in the paper."
     )
@@ -230,7 +235,7 @@ class AnswersConfig:
 
     folder: str = setting("outputs/answers", "Folder of the answers; runs and machines can share it. It holds no secret.")
     replay: str = choice(
-        "auto", ("auto", "only", "off"), "auto looks answers up and keeps new ones; only sends nothing; off asks everything anew."
+        "auto", ("auto", "only", "off"), "Kept answers: auto uses them and keeps new ones, only sends nothing, off asks anew."
     )
     patience: float = number(900.0, 0, 86400, "How long a request is tried again while its service fails.", unit="s")
 

@@ -147,6 +147,9 @@ class Gaussians:
     sh: Any
 
 
+GAUSSIAN_FIELDS: tuple[str, ...] = tuple(field.name for field in dataclasses.fields(Gaussians))
+"""In the order in which files keep them."""
+
 Background = Float[Array, "3"] | Float[Array, "h w 3"] | Float[np.ndarray, "3"] | Float[np.ndarray, "h w 3"]
 """The colour behind all gaussians: one colour, or one per pixel. On the device or the host."""
 

@@ -5,14 +5,14 @@
 Images are judged by their depth alone, so none is shaded: a violation is drawn as the offline image model draws it
 (wm/offline/image/violations.py), cast, estimated by the offline depth model and verified. Two parts:
   kinds     every kind of violation once a view, and two good images a view
-  profiles  the painting loop of every profile in conf/image: attempts until one passes, violations at the profile's shares
+  profiles  the painting loop of every offline image model: attempts until one passes, violations at its shares
 """
 
 import argparse
 import csv
 import dataclasses
 import pathlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -22,16 +22,19 @@ from wm.offline.image.violations import KINDS, PLAIN, ScaffoldViolation, draw_vi
 from wm.offline.world.edit import edited_mesh
 from wm.run import load_config, options
 from wm.schema import RunConfig
-from wm.synth.attempt import attempt_seed
-from wm.synth.backends import ImageResult, SceneContext
+from wm.synth.attempt import attempt_seed, binding_edges, compared_depth, near_glass
+from wm.synth.backends import Condition, ImageResult, SceneContext
 from wm.synth.canny import depth_edges
+from wm.synth.condition import glass
 from wm.synth.furnished import furnished_context
 from wm.synth.registry import make_backend
 from wm.synth.verify import verify
-from wm.types import OUTSIDE, GBuffer, Mesh, View
+from wm.types import OUTSIDE, GBuffer, Mesh, SceneObject, View
 
 HERE = pathlib.Path(__file__).parent
 GOOD = "good"
+PROFILES = ("procedural", "like_closed", "like_distilled")
+"""The image models that are offline; all others are paid or need weights."""
 RECALL = 0.6
 """Threshold for the test by edge recall alone; the paper does not tell its own."""
 
@@ -66,8 +69,12 @@ class Scene:
         self.mesh = Mesh(vertices=mesh.vertices, **labels)
         self.gbuffer: GBuffer = cast(self.mesh, view.camera)
         self.thing = np.append(self.mesh.face_object, np.int32(OUTSIDE))[self.gbuffer.face]
-        verify_settings = stage.config.verify
-        self.edges = depth_edges(self.gbuffer.depth, self.gbuffer.hit, low=verify_settings.low, high=verify_settings.high)
+        settings = stage.config.verify
+        self.edges = depth_edges(self.gbuffer.depth, self.gbuffer.hit, low=settings.low, high=settings.high)
+        condition = blank_condition(self.gbuffer, self.mesh, stage.context.objects)
+        self.binding = binding_edges(self.gbuffer, condition, settings)
+        self.held = compared_depth(self.gbuffer, condition, settings)
+        self.glass = near_glass(condition, settings)
 
     def violated(self, kind: str, seed: int) -> ScaffoldViolation | None:
         return violation(kind, self.stage.context, self.view, self.gbuffer, self.thing, np.random.default_rng(seed))
@@ -87,12 +94,21 @@ class Scene:
         image = ImageResult(rgb=np.zeros((*depth.shape, 3), np.float32), drawn_depth=depth)
         estimate = make_backend("depth", self.stage.config.depth).estimate(image, camera=self.view.camera, seed=seed)
         paper = verify(self.edges, estimate, dataclasses.replace(settings, min_recall=RECALL))
-        ours = verify(self.edges, estimate, settings, depth=self.gbuffer.depth)
+        ours = verify(self.binding, estimate, settings, depth=self.held, glass=self.glass)
         return {
             "kind": GOOD if wrong is None else wrong.kind, "what": "" if wrong is None else wrong.what,
             "changed": float(changed.mean()), "recall": ours.recall, "disagreement": ours.disagreement,
             "paper_rejects": not paper.passed, "rejects": not ours.passed,
         }  # fmt: skip
+
+
+def blank_condition(gbuffer: GBuffer, mesh: Mesh, objects: Sequence[SceneObject], mode: str = "textured") -> Condition:
+    """What verification reads of a condition, without its colours."""
+    blank, owner = np.zeros((*gbuffer.depth.shape, 3), np.float32), np.append(mesh.face_object, np.int32(OUTSIDE))
+    return Condition(
+        rgb=blank, known=blank[..., 0], depth=gbuffer.depth, objects=mode, object=owner[gbuffer.face] != OUTSIDE,
+        glass=glass(gbuffer, mesh, objects),
+    )  # fmt: skip
 
 
 def kinds(stage: Stage, scene: Scene, number: int) -> Iterator[dict]:
@@ -121,7 +137,7 @@ def main() -> None:
     parser.add_argument("--scenes", nargs="+", default=list(options("scene")))
     parser.add_argument("--again", action="store_true", help="judge the stored samples by the limits of today")
     arguments = parser.parse_args()
-    profiles = {name: load_config(["+scene=gothic", f"image={name}"]) for name in options("image")}
+    profiles = {name: load_config(["+scene=gothic", f"image={name}"]) for name in PROFILES}
     path = HERE / f"samples_{arguments.preset}.csv"
     rows: list[dict] = list(judged_again(path, load_config(["+scene=gothic"]))) if arguments.again else []
     for name in () if arguments.again else arguments.scenes:

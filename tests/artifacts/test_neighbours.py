@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from wm.artifacts.manifest import Loan
 from wm.artifacts.neighbours import Neighbours
 from wm.artifacts.run_folder import open_run_folder
 
@@ -62,13 +63,13 @@ def test_a_damaged_entry_is_not_lent(other, tmp_path, damage):
 def test_the_next_neighbour_is_asked(other, tmp_path):
     (other / "views/hall.png").unlink()
     with open_run_folder(tmp_path / "third", HEADER) as folder:
-        folder.save("paint/hall", "k1", {"views/hall.png": b"picture"})
+        folder.save("paint/hall", "k1", {"views/hall.png": b"picture"}, {"model": "m"})
     lend, _, accounted = neighbours(other, tmp_path / "third")
-    assert lend("paint/hall", "k1", tmp_path / "mine") == ["views/hall.png"]
+    assert lend("paint/hall", "k1", tmp_path / "mine") == Loan(("views/hall.png",), {"model": "m"})
     assert accounted == [("paint", tmp_path / "third")]
 
 
 def test_folders_without_a_manifest_lend_nothing(other, tmp_path):
     (other / "manifest.json").write_text(json.dumps({"entries": 3}))
     for folder in (other, tmp_path / "nowhere"):
-        assert neighbours(folder)[0]("paint/hall", "k1", tmp_path / "mine") == []
+        assert neighbours(folder)[0]("paint/hall", "k1", tmp_path / "mine") is None

@@ -7,6 +7,22 @@ from tests.models.loopback import Loopback, Reply
 httpx2 = pytest.importorskip("httpx2")
 
 
+class Client:
+    def close(self):
+        self.closed = True
+
+
+def test_a_client_is_made_once_and_again_after_it_was_closed():
+    from wm.models.http_client import LazyClient
+
+    lazy = LazyClient(Client)
+    lazy.close()
+    first = lazy.get()
+    assert lazy.get() is first
+    lazy.close()
+    assert first.closed and lazy.get() is not first
+
+
 def ask(seconds, reply):
     from wm.models.http_client import http_client
 

@@ -2,8 +2,11 @@
 
 import pytest
 
+from wm.artifacts.digests import digest
 from wm.models import prompt_files
+from wm.models.image.nano_banana_pro import Settings
 from wm.models.prompt_files import PromptError, Prompts
+from wm.synth.registry import backend_key
 
 OURS = """{#
 About this place.
@@ -68,7 +71,7 @@ def test_a_file_of_the_users_takes_the_place_of_ours(folder):
         ("place.md", "a\n{% if %}", "place.md, line 2: "),
         ("palce.md", "x", "palce.md takes the place of no prompt of group/family; it has place.md, rules.md"),
         ("place.md", b"\xff", "place.md: cannot be read"),
-        ("notes.txt", "x", "mine has no file such as place.md"),
+        ("notes.txt", "x", r"\.prompts=.*mine: no file such as place\.md is there"),
     ],
 )
 def test_a_file_that_cannot_be_used_is_named_before_anything_is_asked(folder, name, text, fault):
@@ -78,7 +81,7 @@ def test_a_file_that_cannot_be_used_is_named_before_anything_is_asked(folder, na
 
 
 def test_a_folder_that_is_not_there_is_named(folder):
-    with pytest.raises(PromptError, match="nowhere is not a folder"):
+    with pytest.raises(PromptError, match=r"\.prompts=.*nowhere: no such folder"):
         Prompts("group/family", str(folder / "nowhere"))
 
 
@@ -98,3 +101,14 @@ def test_a_caller_gives_all_variables_and_no_others(values):
 def test_the_caller_is_told_of_a_prompt_that_is_not_there():
     with pytest.raises(ValueError, match=r"family/door\.md is not there"):
         Prompts("group/family").write("door")
+
+
+def test_a_changed_prompt_of_the_users_own_makes_stages_again(tmp_path):
+    def key():
+        return digest(*backend_key(Settings(prompts=str(tmp_path))))
+
+    (tmp_path / "paint.md").write_text("A room.")
+    first = key()
+    assert key() == first
+    (tmp_path / "paint.md").write_text("A bright room.")
+    assert key() != first

@@ -50,6 +50,8 @@ def test_ids_of_a_room_do_not_depend_on_other_rooms():
         ({"T_world_object": [[1, 2], [3, 4]]}, "4 x 4"),
         ({"T_world_object": (2 * np.eye(4)).tolist()}, "rigid"),
         ({"T_world_object": np.diag([-1.0, 1, 1, 1]).tolist()}, "rigid"),
+        ({"T_world_object": np.diag([1e300, 1, 1, 1]).tolist()}, "rigid"),
+        ({"support": "a" * 5000}, f'support is "{"a" * 76}...; choices'),
         ({"id": OBJECTS[1].id}, "appears twice"),
     ],
 )

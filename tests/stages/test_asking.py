@@ -16,7 +16,8 @@ from tests.test_pipeline import SMALL
 from wm import pipeline
 from wm.bounds import setting
 from wm.cli.composition import load_config
-from wm.codecs import decode_png, encode_png, to_bytes
+from wm.codecs import decode_png, encode_png
+from wm.color import to_bytes
 from wm.schema import BackendSettings, BudgetConfig, PricesConfig
 from wm.services.faults import BudgetError, ReplayError
 from wm.services.prices import Price
@@ -118,7 +119,10 @@ def test_the_estimate_counts_attempts_and_what_is_side_by_side(tmp_path, paid_im
     config = configured(tmp_path, "http://127.0.0.1:9")
     services = Services(prices=pipeline.open_services(config, tmp_path).prices, stage="plan")
     (row,) = expected(config, services)
-    assert (row.stage, row.requests, row.usd, row.seconds) == ("paint", 28, 7.0, 56.0)
+    assert (row.stage, row.requests, row.usd, row.seconds) == ("paint", 5, 1.25, 20.0)  # one room: one request after the other
+    config.scene.rooms = ["bedroom", "hall", "study"]
+    (row,) = expected(config, services)
+    assert (row.requests, row.seconds) == (3 * 5 + 2 * 2, 40.0)  # two doors, and two of the three rooms at the same time
     config.verify.enabled = True
     services.views = 10
     (row,) = expected(config, services)
@@ -126,6 +130,48 @@ def test_the_estimate_counts_attempts_and_what_is_side_by_side(tmp_path, paid_im
     assert "3.75 USD in all; no limit is set (budget.usd, budget.requests)" in announcement(config, services)
     services.stage = "report"
     assert not [line for line in announcement(config, services).splitlines() if line.startswith("paint")]
+
+
+def test_plans_follow_one_another_so_their_time_adds_up(tmp_path, paid_image, monkeypatch):
+    monkeypatch.setattr(PaidImage, "propose", PaidImage.generate, raising=False)  # it may then pass for a language model
+    config = configured(tmp_path, "http://127.0.0.1:9")
+    config.language = config.image
+    services = Services(prices=pipeline.open_services(config, tmp_path).prices, stage="plan")
+    plan, _ = expected(config, services)
+    assert (plan.stage, plan.requests, plan.seconds) == ("plan", 2, 8.0)
+
+
+def test_the_cost_is_said_again_only_where_it_is_known_better(tmp_path, paid_image, capsys):
+    services = pipeline.open_services(configured(tmp_path, "http://127.0.0.1:9"), tmp_path)
+    for services.stage in ("plan", "furnish", "paint"):
+        services.announce()
+    assert capsys.readouterr().out.count("before models are paid") == 1
+    services.views = 3
+    services.announce()
+    assert "paint  tint-1  3 requests" in capsys.readouterr().out
+
+
+def test_a_run_that_goes_on_says_how_much_of_its_budget_is_spent(tmp_path, paid_image):
+    config = configured(tmp_path, "http://127.0.0.1:9", budget=BudgetConfig(usd=2.0, requests=9))
+    services = pipeline.open_services(config, tmp_path)
+    services.stage = "paint"
+    assert "limited by budget.usd=2 and budget.requests=9" in announcement(config, services)
+    row = {"key": "k", "stage": "plan", "backend": "lab", "model": "m", "usd": 0.001, "paid": True, "seconds": 1.0}
+    services.ledger.add(row)
+    said = "limited by budget.usd=2 (below 0.01 USD spent) and budget.requests=9 (1 spent)"
+    assert said in announcement(config, services)
+
+
+def test_keys_that_are_not_set_are_named_before_anything_is_paid(tmp_path, paid_image, monkeypatch):
+    vars(sys.modules["paid_image"])["secrets"] = lambda config: ["PAINTERS_KEY", "OTHER_KEY"]
+    monkeypatch.setenv("OTHER_KEY", "a key")
+    config = configured(tmp_path, "http://127.0.0.1:9")
+    services = pipeline.open_services(config, tmp_path)
+    services.stage = "plan"
+    said = announcement(config, services)
+    assert said.endswith("\npaint will stop: the environment variable PAINTERS_KEY is not set") and "OTHER_KEY" not in said
+    monkeypatch.setenv("PAINTERS_KEY", "another")
+    assert "will stop" not in announcement(config, services) and "another" not in announcement(config, services)
 
 
 def test_an_offline_run_asks_nothing_and_leaves_nothing(tmp_path):

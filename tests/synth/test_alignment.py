@@ -67,3 +67,37 @@ def test_where_nothing_is_hit_nothing_disagrees_and_where_nothing_is_estimated_a
     assert not found[:-5].any()
     assert found[-5:].all()
     assert (apart(scaffold, np.full(SHAPE, np.nan)) == (scaffold > 0)).all()
+
+
+def hall():
+    """A depth that varies as much as in a room seen along a wall. Without that, far and large look alike."""
+    return np.repeat(6.0 - 0.045 * np.arange(SHAPE[1])[None], SHAPE[0], axis=0)
+
+
+def furnished(*chairs):
+    out = hall()
+    for i, j in chairs:
+        out[i : i + 15, j : j + 15] = np.minimum(out[i : i + 15, j : j + 15], 1.5)
+    return out
+
+
+@given(st.lists(st.tuples(st.integers(0, 45), st.integers(0, 75)), max_size=5), st.floats(0.05, 20), st.floats(-10, 10))
+def test_furniture_in_front_of_an_empty_room_is_no_disagreement_where_it_may_be_added(chairs, scale, shift):
+    estimate = scale * furnished(*chairs) + shift
+    assert not disagreement(hall(), estimate, radius=2, tolerance=0.1, adds=True).any()
+
+
+@given(
+    st.lists(st.tuples(st.integers(0, 45), st.integers(0, 75)), max_size=5),
+    st.sampled_from([lambda z: -z, lambda z: 1 / z, lambda z: -np.log(z)]),
+)
+def test_front_and_back_are_not_confused_where_things_may_be_added_either(chairs, falling):
+    found = disagreement(hall(), falling(furnished(*chairs)), radius=0, tolerance=0.01, adds=True)
+    assert found.mean() > 0.2
+
+
+def test_what_lies_behind_the_scaffold_disagrees_where_things_may_be_added():
+    gone = hall()
+    gone[10:22, 20:36] *= 2  # a piece of wall is open
+    found = disagreement(hall(), gone, radius=2, tolerance=0.1, adds=True)
+    assert found[13:19, 23:33].all() and found.mean() < 0.06

@@ -9,6 +9,7 @@ import pytest
 
 from tests.geometry.plans import two_rooms
 from tests.geometry.things import box
+from wm.color import to_bytes
 from wm.geometry.mesh.scene_mesh import assemble_scene
 from wm.geometry.mesh.structure import build_structure
 from wm.geometry.rays.pinhole import make_camera, unproject_depth
@@ -16,10 +17,12 @@ from wm.geometry.rays.raycast import build_ray_scene, cast
 from wm.geometry.texture.accumulation import accumulate
 from wm.geometry.texture.atlas import build_atlas, texel_positions
 from wm.schema import ConditionConfig, TextureSettings, VerifySettings
-from wm.synth.attempt import as_bytes, attempt_seed, binding_edges
+from wm.synth.attempt import attempt_seed, binding_edges, compared_depth, near_glass
 from wm.synth.backends import Condition, ImageResult
+from wm.synth.condition import glass, make_condition
 from wm.synth.painting import PaintSettings, Scaffold, paint_scene, scene_depth_range
-from wm.types import View
+from wm.synth.prompts import ViewPrompt
+from wm.types import SurfaceKind, View
 
 SETTINGS = PaintSettings(texture=TextureSettings(texel_size=0.05))
 
@@ -114,7 +117,7 @@ def paint(painter=None, depth=None, archive=None, views=VIEWS, conditioning=None
         conditioning or scaffold(),
         painter or Painter(),
         depth or Estimator(),
-        prompt=lambda view, has_reference: ("a hall", "a study")[view.room] + " again" * has_reference,
+        prompt=lambda view, has_reference: ViewPrompt(("a hall", "a study")[view.room] + " again" * has_reference),
         seed=seed,
         load=archive.load,
         store=archive.store,
@@ -272,7 +275,7 @@ def test_of_attempts_that_failed_one_is_kept_whose_depth_can_be_told(untold, tol
     kept = paint(painter, depth, views=(edgeless,))[1]["hall/bootstrap0"]
     assert (kept.accepted, kept.attempts, kept.recall, depth.asked) == (False, limit, None, limit)
     assert 0 < kept.mask.mean() < 1
-    np.testing.assert_array_equal(kept.rgb, as_bytes(painter.generate(painter.requests[told]).rgb))
+    np.testing.assert_array_equal(kept.rgb, to_bytes(painter.generate(painter.requests[told]).rgb))
 
 
 def test_a_variant_is_conditioned_on_its_own_scaffold():
@@ -335,3 +338,23 @@ def test_the_edges_of_boxes_do_not_bind():
     assert (every & things).any()
     assert not (binding & things).any()
     assert not (binding & ~every).any()
+
+
+def test_panes_and_mirrors_are_glass_whose_edges_and_depth_do_not_bind():
+    plan, things = two_rooms(), (box([2, 2.5, 0], [3, 3.3, 1]), box([6.5, 0.8, 0], [7.5, 1.6, 1.4], room=1))
+    things = (dataclasses.replace(things[0], label="wall mirror"), things[1])
+    mesh = assemble_scene(build_structure(plan), things)
+    rays = build_ray_scene(mesh)
+    for one in VIEWS:
+        shown = cast(rays, one.camera)
+        seen = glass(shown, mesh, things)
+        owner, kind = mesh.face_object[shown.face], mesh.face_kind[shown.face]
+        np.testing.assert_array_equal(seen, shown.hit & ((owner == 0) | (kind == SurfaceKind.PANE)))
+        condition = make_condition(shown, one.camera, None, mesh, things, (0.1, 9.0))
+        binding = binding_edges(shown, condition, SETTINGS.verify)
+        held = compared_depth(shown, condition, SETTINGS.verify)
+        near = near_glass(condition, SETTINGS.verify)
+        assert near is not None and near[seen].all()
+        assert not (binding & near).any() and not held[near].any()
+        np.testing.assert_array_equal(held[~near], shown.depth[~near])
+    assert any(glass(cast(rays, one.camera), mesh, things).any() for one in VIEWS)

@@ -106,6 +106,78 @@ def test_a_small_thing_that_is_missing_passes_recall_and_fails_depth():
     assert verify(edges, without, VerifySettings(max_disagreement=1.0), depth=depth).passed  # the paper's test alone
 
 
+def test_what_is_seen_through_or_in_glass_does_not_matter():
+    """Whatever an estimate says of a pane, or if it says nothing; also where things may be added."""
+    depth, edges = step()
+    glass = np.zeros(SHAPE, bool)
+    glass[8:16, 26:38] = True
+    held, binding = np.where(glass, 0, depth), edges & ~glass
+    for seen in (depth[glass], 30.0, 0.5, np.nan):
+        estimate = depth.copy()
+        estimate[glass] = seen
+        for adds in (False, True):
+            verdict = verify(binding, estimate, VerifySettings(), depth=held, adds=adds, glass=glass)
+            assert (verdict.passed, verdict.recall, verdict.disagreement) == (True, 1.0, 0.0)
+
+
+def test_glass_does_not_excuse_what_is_beside_it():
+    depth, edges = step()
+    glass = np.zeros(SHAPE, bool)
+    glass[8:16, 26:38] = True
+    estimate = np.where(glass, 30.0, depth)
+    estimate[18:26, 26:38] = 1.0
+    verdict = verify(edges & ~glass, estimate, VerifySettings(), depth=np.where(glass, 0, depth), glass=glass)
+    assert not verdict.passed
+
+
+def drifting(seed):
+    """A smooth field around 1 that leaves it by up to 15 %."""
+    x, y = np.meshgrid(np.linspace(-1, 1, SHAPE[1]), np.linspace(-1, 1, SHAPE[0]))
+    a, b, c, d = np.random.default_rng(seed).uniform(-1, 1, 4)
+    field = a * x + b * y + c * x * y + d * x**2
+    return np.exp(np.log(1.15) * field / np.abs(field).max())
+
+
+def empty_room():
+    """Far wall, side walls, floor and ceiling, as a camera sees them."""
+    x, y = np.meshgrid(np.linspace(-0.9, 0.9, SHAPE[1]), np.linspace(-0.6, 0.6, SHAPE[0]))
+    sides = np.minimum(np.where(x < 0, 2.0, 2.4) / np.abs(x), np.where(y < 0, 1.2, 1.4) / np.abs(y))
+    return np.minimum(sides, 5.0)
+
+
+def furnished(i=14, j=16):
+    depth = empty_room()
+    depth[i : i + 10, j : j + 10] = 1.5
+    return depth
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_a_smooth_drift_of_scale_never_fails_an_image_and_never_hides_a_thing(seed):
+    depth, field, settings = furnished(), drifting(seed), VerifySettings(field=4)
+    edges = depth_edges(depth, np.ones(SHAPE, bool), low=settings.low, high=settings.high)
+    assert verify(edges, 3 * depth * field, settings, depth=depth).passed
+    for wrong in (empty_room(), furnished(j=24), furnished(i=6)):
+        apart = verify(edges, 3 * wrong * field, settings, depth=depth).disagreement
+        assert apart is not None and apart > 0.02
+
+
+def test_a_drift_of_scale_fails_where_none_is_allowed():
+    """The far wall drifts from side to side, which no scale and shift explains."""
+    depth = furnished()
+    edges = depth_edges(depth, np.ones(SHAPE, bool), low=0.1, high=0.3)
+    drifted = depth * np.exp(np.linspace(-0.2, 0.2, SHAPE[1]))
+    assert not verify(edges, drifted, VerifySettings(field=0), depth=depth).passed
+    assert verify(edges, drifted, VerifySettings(field=1), depth=depth).passed
+
+
+@pytest.mark.parametrize("falling", [lambda z: 1 / z, lambda z: -z])
+@pytest.mark.parametrize("adds", [False, True])
+def test_no_field_makes_an_inverted_estimate_pass(falling, adds):
+    depth, settings = furnished(), VerifySettings(field=8)
+    edges = depth_edges(depth, np.ones(SHAPE, bool), low=settings.low, high=settings.high)
+    assert not verify(edges, falling(depth), settings, depth=depth, adds=adds).passed
+
+
 def test_a_true_image_passes_both():
     depth, edges = step()
     verdict = verify(edges, 3 * depth + 1, VerifySettings(), depth=depth)
@@ -137,3 +209,12 @@ def test_an_estimate_of_half_the_image_vouches_for_no_more_than_that():
         assert (verdict.passed, verdict.recall, verdict.disagreement) == (False, 1.0, 0.5)
         assert "missing" in verdict.reason
         assert verify(edges, half, VerifySettings(max_disagreement=1.0), depth=held).passed  # the paper's test alone
+
+
+@pytest.mark.parametrize("falling", [lambda z: 1 / z, lambda z: -z])
+def test_front_and_back_swapped_does_not_pass_where_things_may_be_added(falling):
+    """Without the depth it would: the edges of an inverted estimate are where they should be."""
+    depth, edges = step()
+    assert verify(edges, falling(depth), VerifySettings()).passed
+    assert not verify(edges, falling(depth), VerifySettings(), depth=depth, adds=True).passed
+    assert verify(edges, 3 * depth + 1, VerifySettings(), depth=depth, adds=True).passed

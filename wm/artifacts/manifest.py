@@ -8,6 +8,7 @@ It may be damaged or somebody else's, so its form is checked, and every file tha
 import dataclasses
 import json
 import pathlib
+from collections.abc import Mapping
 from typing import Any
 
 from wm.artifacts.atomic import is_temporary
@@ -29,6 +30,14 @@ class Manifest:
     entries: dict[str, dict[str, Any]]  # name -> {"key", "files": {relative: digest}}
     refused: tuple[str, ...] = ()
     """Names of the entries that are left out, since a file of theirs has a name that no entry can have."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Loan:
+    """An entry that was copied from elsewhere."""
+
+    files: tuple[str, ...]  # relative to the folder
+    note: Mapping[str, Any] | None
 
 
 def read_manifest(folder: pathlib.Path) -> Manifest | None:
@@ -66,7 +75,11 @@ def differences(old: Any, new: Any, prefix: str = "") -> list[str]:
 def _kept(entry: dict[str, Any]) -> dict[str, Any]:
     """What is read of an entry; its note is nobody's input, and goes with it."""
     note = entry.get("note")
-    return {"key": entry["key"], "files": entry["files"], **({"note": note} if isinstance(note, dict) else {})}
+    return {"key": entry["key"], "files": entry["files"], **({"note": note} if _is_note(note) else {})}
+
+
+def _is_note(note: Any) -> bool:
+    return isinstance(note, dict) and all(value is None or isinstance(value, str | int) for value in note.values())
 
 
 def _is_entry(entry: Any) -> bool:

@@ -13,7 +13,7 @@ from typing import Any
 from wm.artifacts.atomic import write_atomically
 from wm.artifacts.confined import confined
 from wm.artifacts.digests import content_digest
-from wm.artifacts.manifest import ManifestDamage, read_manifest
+from wm.artifacts.manifest import Loan, ManifestDamage, read_manifest
 from wm.errors import ArtifactError
 
 
@@ -45,18 +45,18 @@ class Neighbours:
         self._say, self._account = say, account
         self._said: set[tuple[str, pathlib.Path]] = set()
 
-    def lend(self, name: str, key: str, into: pathlib.Path) -> list[str]:
+    def lend(self, name: str, key: str, into: pathlib.Path) -> Loan | None:
         """Copies the files of the entry `name` with the key `key` into a run folder.
 
         Returns:
-          The files, relative to the folder; an empty list if no neighbour has all of them unchanged.
+          What was copied; None if no neighbour has all files unchanged.
         """
         for neighbour in self._neighbours:
             entry = neighbour.entries.get(name)
             if entry is not None and entry["key"] == key and _copy(neighbour.path, entry["files"], into):
                 self._tell(name.partition("/")[0], neighbour.path)
-                return list(entry["files"])
-        return []
+                return Loan(tuple(entry["files"]), entry.get("note"))
+        return None
 
     def _tell(self, stage: str, path: pathlib.Path) -> None:
         if (stage, path) not in self._said:

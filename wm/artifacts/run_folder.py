@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 from wm.artifacts.atomic import Writer, is_temporary, write_atomically
 from wm.artifacts.confined import confined
 from wm.artifacts.digests import file_digest, json_text
-from wm.artifacts.manifest import LOCK, MANIFEST, Manifest, ManifestDamage, differences, read_manifest
+from wm.artifacts.manifest import LOCK, MANIFEST, Loan, Manifest, ManifestDamage, differences, read_manifest
 from wm.artifacts.timings import TIMINGS, read_rows
 from wm.console import say as to_console
 from wm.errors import ArtifactError
@@ -28,8 +28,8 @@ except ImportError:  # Windows has no flock: there the folder is not locked
 _TELLING = ("config.scene.name", "config.preset", "config.variant", "seed")
 """Of what may differ between two configurations, what tells most: a preset brings a dozen others with it."""
 
-Lender = Callable[[str, str, pathlib.Path], list[str]]
-"""Brings the files of an entry (its name, its key) into a folder from elsewhere; an empty list where that cannot be done."""
+Lender = Callable[[str, str, pathlib.Path], Loan | None]
+"""Brings the files of an entry (its name, its key) into a folder from elsewhere; None where that cannot be done."""
 
 
 class RunFolder:
@@ -61,6 +61,11 @@ class RunFolder:
         """The first words of the names of all entries: "paint" of "paint/hall/bootstrap0"."""
         return {name.partition("/")[0] for name in self._entries}
 
+    @property
+    def unasked(self) -> set[str]:
+        """Names of the entries that this process has neither asked for nor made."""
+        return set(self._entries) - self._asked
+
     def has(self, name: str, key: str) -> bool:
         """Whether entry `name` made from `key` is here and whole; a damaged one is forgotten, with a line.
 
@@ -85,10 +90,10 @@ class RunFolder:
         return True
 
     def _borrows(self, name: str, key: str) -> bool:
-        files = [] if self._lend is None else self._lend(name, key, self.path)
-        if files:
-            self.record(name, key, files)
-        return bool(files)
+        loan = None if self._lend is None else self._lend(name, key, self.path)
+        if loan is not None:
+            self.record(name, key, list(loan.files), loan.note)
+        return loan is not None
 
     def save(
         self, name: str, key: str, files: Mapping[str, Writer | bytes | str], note: Mapping[str, Any] | None = None
@@ -118,7 +123,7 @@ class RunFolder:
 
     def drop_unasked(self) -> None:
         """Forgets the entries that this process has neither asked for nor made, and removes their files: a former run's."""
-        self._drop([name for name in self._entries if name not in self._asked])
+        self._drop(self.unasked)
 
     def _drop(self, names: Iterable[str]) -> None:
         stale = [self._entries.pop(name) for name in names]

@@ -26,10 +26,13 @@ from wm.cli.command_line import quoted, scene_name, translated
 from wm.environment import EnvironmentText, environment_values, masked
 from wm.errors import InputError
 from wm.schema import RunConfig
+from wm.services.faults import ServiceError
 from wm.validate import ConfigError, validate_config
 
 LINES = 12
 """Of a message of many lines, such as all violations of a plan, so many are said."""
+_WORD = 200
+"""Characters of one word that a message quotes."""
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 CONF = next(folder for folder in (_PACKAGE / "conf", _PACKAGE.parent / "conf") if (folder / "config.yaml").is_file())
@@ -150,7 +153,7 @@ def explain(error: BaseException) -> str:
         return _unknown(str(key), getattr(cause, "object_type", None))
     if key is not None:
         return f"{key}: {one_line(str(cause).splitlines()[0])}"
-    if isinstance(error, InputError | HydraException | OmegaConfBaseException):
+    if isinstance(error, InputError | ServiceError | HydraException | OmegaConfBaseException):
         return one_line(str(error)) or type(error).__name__
     return f"{type(error).__name__}: {one_line(str(error))} (debug=true shows where)"
 
@@ -161,10 +164,14 @@ def options(group: str) -> tuple[str, ...]:
 
 
 def one_line(text: str) -> str:
-    """A message of several lines as one, its last lines counted where there are more than LINES."""
-    lines = [" ".join(line.split()) for line in text.splitlines() if line.strip()]
+    """A message of several lines as one, its last lines counted where there are more than LINES, and endless words cut."""
+    lines = [" ".join(map(_cut, line.split())) for line in text.splitlines() if line.strip()]
     more = [f"and {len(lines) - LINES} more"] if len(lines) > LINES else []
     return "; ".join(lines[:LINES] + more)
+
+
+def _cut(word: str) -> str:
+    return word if len(word) <= _WORD else f"{word[:_WORD]}..."
 
 
 def _typed(yaml: Any, config_path: str, path: str) -> Any:
@@ -250,7 +257,7 @@ def _guess(word: str, known: Sequence[str], prefix: str = "") -> str:
 def _unreadable(argument: str, reason: str) -> str:
     key, equals, value = argument.partition("=")
     quoting = f"; a text is quoted, within what the shell quotes: {key}={quoted(value)}" if equals else ""
-    return f"cannot read the argument {argument!r}: {reason}{quoting}"
+    return one_line(f"cannot read the argument {argument!r}: {reason}{quoting}")
 
 
 def _no_scene() -> str:

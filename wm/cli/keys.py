@@ -80,8 +80,14 @@ def _of_backend(group: str, name: str, path: Path) -> Section:
     """The keys of a backend with the values of the YAML that chooses it."""
     said = dict(re.findall(r"^(\w+): *([^#\n]*?) *(?:#.*)?$", path.read_text("utf-8"), re.MULTILINE))
     title, keys = _declared(said["backend"]) if "backend" in said else ("", {})
-    defaults = {key: said.get(key, field.default) for key, field in keys.items()}
+    defaults = {key: _value(said[key]) if key in said else field.default for key, field in keys.items()}
     return Section(group, f"{group}={name}: {title}", keys, defaults)
+
+
+def _value(text: str) -> str | bool | None:
+    """What a scalar of YAML says, as help shows it: without quotes, None for null; numbers stay as they are written."""
+    named: dict[str, bool | None] = {"null": None, "true": True, "false": False}
+    return named[text] if text in named else text.strip("\"'")
 
 
 def _declared(path: str) -> tuple[str, dict[str, dataclasses.Field[Any]]]:

@@ -1,9 +1,35 @@
-"""An HTTP client for SDKs on top of httpx2 whose time limit holds for a whole request."""
+"""An HTTP client for SDKs on top of httpx2 whose time limit holds for a whole request, and a client that is made when needed."""
 
 import importlib
+import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
+
+
+class LazyClient:
+    """A client of an SDK that is made by the first request and shared by threads.
+
+    Args:
+      make: makes it; it has a `close`.
+    """
+
+    def __init__(self, make: Callable[[], Any]):
+        self._make, self._lock, self._client = make, threading.Lock(), None
+
+    def get(self) -> Any:
+        """The client. Raises what `make` raises."""
+        with self._lock:
+            if self._client is None:
+                self._client = self._make()
+            return self._client
+
+    def close(self) -> None:
+        """Closes the client, if there is one; the next `get` makes another."""
+        with self._lock:
+            client, self._client = self._client, None
+        if client is not None:
+            client.close()
 
 
 def http_client(seconds: float) -> Any:

@@ -4,7 +4,8 @@
     no answer in time, a reply that is not the service's               TransientError, after Retry-After where it is given
     any other status; an address that is none                          ServiceError, which says what would be right
 
-Messages hold what the service said, shortened, and never a key.
+An error that comes in a reply with status 200, as in the middle of a stream, is told by its type in the same way. Messages
+hold what the service said, shortened, and never a key.
 """
 
 import email.utils
@@ -25,6 +26,11 @@ _ADVICE = {
     404: "the model or the address is not known; check the settings model and base_url",
     413: "the request is too large for the service",
 }
+_STATUS = {
+    "invalid_request_error": 400, "authentication_error": 401, "billing_error": 402, "permission_error": 403,
+    "not_found_error": 404, "request_too_large": 413, "rate_limit_error": 429, "timeout_error": 504, "overloaded_error": 529,
+}  # fmt: skip
+"""The status that belongs to a type of error, where the reply's own status says success."""
 _LONGEST = 300
 
 
@@ -56,14 +62,30 @@ def sdk_fault(error: Exception, *, key: str, secret: str = "") -> TransientError
       key, secret: as in `status_fault`.
     """
     status, response = getattr(error, "status_code", None), getattr(error, "response", None)
-    if isinstance(status, int) and response is not None and status >= 400:
+    if isinstance(status, int) and response is not None:
         body = getattr(error, "body", None)
+        if status < 400:
+            return body_fault(body, key=key, secret=secret)
         return status_fault(status, response.headers, error_text(body), key=key, secret=secret, code=_code(body))
     cause = error.__cause__ if isinstance(error.__cause__, Exception) else error
     kind = type(cause).__name__
     if kind in ("UnsupportedProtocol", "InvalidURL", "LocalProtocolError"):
         return ServiceError(f"the address of the service cannot be used{_said(str(cause), secret)}; check the setting base_url")
     return TransientError(f"no answer{_said(f'{kind}: {cause}' if str(cause) else kind, secret)}")
+
+
+def body_fault(body: Any, *, key: str, secret: str = "") -> TransientError | ServiceError:
+    """The fault that an error in the body of a reply stands for whose status says success; of an unknown type, a passing one.
+
+    Args:
+      body: decoded.
+      key, secret: as in `status_fault`.
+    """
+    inner = body.get("error", body) if isinstance(body, dict) else {}
+    number = inner.get("code") if isinstance(inner, dict) else None
+    code = _code(body)
+    status = number if isinstance(number, int) and 400 <= number < 600 else _STATUS.get(code or "", 500)
+    return status_fault(status, {}, error_text(body), key=key, secret=secret, code=code)
 
 
 def retry_after(headers: Mapping[str, str], now: float | None = None) -> float | None:

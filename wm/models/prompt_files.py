@@ -32,6 +32,7 @@ import jinja2.sandbox
 
 from wm.bounds import setting
 from wm.errors import InputError
+from wm.schema import READ
 
 PROMPTS = pathlib.Path(__file__).parent / "prompts"
 """The folder of our own prompts."""
@@ -45,7 +46,7 @@ class PromptError(InputError):
 
 def prompts_setting() -> Any:
     """The field `prompts` of a backend's Settings."""
-    return setting(None, "Folder with prompts of your own, which take the place of ours by their file names; null: ours.")
+    return setting(None, "Folder with prompts of your own, which take the place of ours by their file names; null: ours.", **READ)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -103,19 +104,23 @@ class Prompts:
             return self._ours
         folder = pathlib.Path(self.folder).expanduser()
         if not folder.is_dir():
-            raise PromptError(f"prompts: {folder} is not a folder; a folder with files such as {self._some} would be right")
+            raise PromptError(f"{self._setting}: no such folder; a folder with files such as {self._some} would be right")
         theirs = {file.name: file for file in folder.glob("*.md")}
         for name in sorted(theirs.keys() - self._ours.keys()):
             raise PromptError(
                 f"{theirs[name]} takes the place of no prompt of {self.family}; it has {', '.join(sorted(self._ours))}"
             )
         if not theirs:
-            raise PromptError(f"prompts: {folder} has no file such as {self._some}")
+            raise PromptError(f"{self._setting}: no file such as {self._some} is there")
         return {**self._ours, **theirs}
 
     @functools.cached_property
     def _texts(self) -> dict[str, str]:
         return {name: _read(file).rstrip() + "\n" for name, file in self._files.items()}
+
+    @property
+    def _setting(self) -> str:
+        return f"{pathlib.PurePosixPath(self.family).parts[0]}.prompts={self.folder}"
 
     @property
     def _some(self) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Num, UInt8
 from PIL import Image
 
-from wm.codecs import to_bytes
+from wm.color import to_bytes
 
 DEPTH_ERROR_RANGE = 0.10
 """Depth error, in metres, at which the colour saturates."""

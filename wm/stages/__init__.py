@@ -3,10 +3,12 @@
     run_context     RunContext: the configuration, the run folder and the meter, which every stage needs
     asking          open_services: what backends ask models through, and what that will cost
     scene           build_scene: the stages plan, structure, furnish and cameras
+    unfurnished     unfurnished: rooms that stay empty although their furniture should come out of images
     painting        paint: an image for every training view
     heldout         render_heldout: the true image of each held-out view
     reconstruction  reconstruct: gaussians from the painted views
     starting        starting_gaussians: the initial gaussians of a room
+    tucked          tucked: discs on unseen surface that no view sees
     warm_up         warming_up: what the fit will run is compiled while views are painted
     executors       room_executor: the executor that fits rooms, by its name in the configuration
     evaluation      evaluate: the metrics, measured on held-out views

@@ -57,7 +57,7 @@ def arranged(objects: Sequence[SceneObject], data: bytes, plan: FloorPlan, sourc
         name = row.get("id") if isinstance(row, dict) else None
         if not isinstance(name, str) or name not in by_id:
             raise ArrangementError(
-                f"{source}: objects[{k}].id is {json.dumps(name)}; it must be the id of an object that the run has furnished. "
+                f"{source}: objects[{k}].id is {_show(name)}; it must be the id of an object that the run has furnished. "
                 "Furniture of your own goes into the plan's 'objects'"
             )
         if name in seen:
@@ -84,9 +84,9 @@ def _changed(thing: SceneObject, row: dict[str, Any], made: dict[str, Any], plan
         return thing
     label, support = row["label"], row["support"]
     if not isinstance(label, str) or not label.strip():
-        raise ArrangementError(f"{where}: label is {json.dumps(label)}; it must be words")
+        raise ArrangementError(f"{where}: label is {_show(label)}; it must be words")
     if support not in SUPPORTS:
-        raise ArrangementError(f"{where}: support is {json.dumps(support)}; choices: {', '.join(SUPPORTS)}")
+        raise ArrangementError(f"{where}: support is {_show(support)}; choices: {', '.join(SUPPORTS)}")
     size = _array(row["size"], (3,), f"{where}: size", "three extents in metres")
     if not ((size > 0) & (size <= _LARGEST)).all():
         raise ArrangementError(f"{where}: size is {size.tolist()}; extents are above 0 and at most {_LARGEST:g} m")
@@ -110,7 +110,7 @@ def _room(thing: SceneObject, row: dict, made: dict, plan: FloorPlan, matrix: Fl
     rooms = [room.id for room in plan.rooms]
     if row["room"] != made["room"]:
         if row["room"] not in rooms:
-            raise ArrangementError(f"{where}: room is {json.dumps(row['room'])}; choices: {', '.join(rooms)}")
+            raise ArrangementError(f"{where}: room is {_show(row['room'])}; choices: {', '.join(rooms)}")
         return rooms.index(row["room"])
     place = shapely.Point(matrix[:2, 3])
     holding = [k for k, room in enumerate(plan.rooms) if shapely.Polygon(room.polygon).covers(place)]
@@ -121,13 +121,20 @@ def _pose(value: Any, where: str) -> Float[np.ndarray, "4 4"]:
     """A rigid motion; axes that are nearly at right angles are set right."""
     matrix = _array(value, (4, 4), where, "a 4 x 4 matrix of numbers")
     axes = matrix[:3, :3]
-    off = np.abs(axes @ axes.T - np.eye(3)).max()
+    long = np.abs(axes).max() > 1 + _RIGID  # first, since the squares of larger numbers may overflow
+    off = math.inf if long else float(np.abs(axes @ axes.T - np.eye(3)).max())
     if off > _RIGID or np.linalg.det(axes) < 0 or np.abs(matrix[3] - [0, 0, 0, 1]).max() > 1e-9:
         raise ArrangementError(f"{where} is no rigid motion: its upper left 3 x 3 is a rotation, its last row 0 0 0 1")
     if np.abs(matrix[:3, 3]).max() > 1e5:
         raise ArrangementError(f"{where} moves the object more than 100 km away")
     u, _, v = np.linalg.svd(axes)
     return np.block([[u @ v, matrix[:3, 3:]], [np.zeros((1, 3)), np.ones((1, 1))]])
+
+
+def _show(value: Any) -> str:
+    """A value as a message quotes it, cut short where it is long."""
+    text = json.dumps(value)
+    return text if len(text) <= 80 else f"{text[:77]}..."
 
 
 def _array(value: Any, shape: tuple[int, ...], where: str, wanted: str) -> np.ndarray:

@@ -9,6 +9,7 @@ import numpy as np
 
 from wm import codecs
 from wm.artifacts.digests import json_text
+from wm.color import to_bytes
 from wm.geometry import cast, coverage, navigability, visible_rooms
 from wm.geometry.rays.pinhole import scale_camera
 from wm.metric_table import read_metrics
@@ -119,7 +120,7 @@ def _heldout_metrics(run: RunContext, scene: Scene, result: ReconstructedScene, 
                 row = _alignment(scene, one, depth=run.config.raster.depth)
                 if heldout.known:
                     row |= _photometry(one.render.rgb, heldout.truth(one.view))
-                picture = codecs.encode_png(codecs.to_bytes(one.render.rgb))
+                picture = codecs.encode_png(to_bytes(one.render.rgb))
                 run.folder.save(_entry(one.view), key, {_picture(one.view): picture})
                 rows.append(row)
                 seen.append(one)

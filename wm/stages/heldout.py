@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 
 from wm import codecs
+from wm.color import to_bytes
 from wm.stages.ordered import in_order
 from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
@@ -39,7 +40,7 @@ def render_heldout(run: RunContext, scene: Scene, image: ImageBackend) -> HeldOu
         run.folder.drop_others("heldout/", {_name(view) for view in scene.heldout})
         with run.bar("heldout", len(wanted)) as bar:
             for view, rgb in zip(wanted, in_order(image.truth, wanted)):
-                run.folder.save(_name(view), key, {_file(view): codecs.encode_png(codecs.to_bytes(checked_image(rgb, view)))})
+                run.folder.save(_name(view), key, {_file(view): codecs.encode_png(to_bytes(checked_image(rgb, view)))})
                 bar.update()
     return HeldOut(known=True, key=key, run=run)
 

@@ -18,13 +18,15 @@ from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
 from wm.synth.backends import DepthBackend, ImageBackend
 from wm.synth.painting import PaintedView, PaintSettings, PaintSummary, Scaffold, paint_scene
-from wm.synth.prompts import image_prompt
+from wm.synth.prompts import ViewPrompt, image_prompt
 from wm.synth.registry import backend_key
 from wm.synth.sights import sights
 from wm.types import SceneObject, View
 
 SCAFFOLD = "scaffold.glb"
 SUMMARY = "stages/paint.json"
+_ORDER = "anchors first, then each room by itself"
+"""Part of the key: views of folders of older versions were painted in another order."""
 _NOTED = ("model", "model_version", "seed")
 """What the manifest says of how a view was made; `views/*.json` says all of it."""
 
@@ -63,7 +65,7 @@ def paint_key(run: RunContext, scene: Scene) -> str:
     """The key of every entry of the painting."""
     config = run.config
     shown = (config.cameras, config.texture, config.condition, config.verify, config.finish, config.light)
-    return run.key("paint", scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
+    return run.key("paint", _ORDER, scene.key, config.scene.theme, *shown, *backend_key(config.image), *backend_key(config.depth))
 
 
 def _entry(view: View) -> str:
@@ -144,14 +146,15 @@ def _conditioning(scene: Scene, scaffold: Scaffold, objects: str) -> Scaffold:
     return Scaffold(scene=build_ray_scene(assemble_scene(scene.context.structure, shown)), objects=shown)
 
 
-def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], str]:
+def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], ViewPrompt]:
     """A function that returns the prompt of a view, given the view and whether it has a style reference."""
     sites = functools.cache(functools.partial(room_site, scene.plan))
 
-    def prompt(view: View, has_reference: bool) -> str:
+    def prompt(view: View, has_reference: bool) -> ViewPrompt:
         seen = sights(view.camera, sites(view.room))
         name, shown = scene.plan.rooms[view.room].name, config.condition.objects
-        return image_prompt(config.scene.theme, name, seen, objects=shown, has_reference=has_reference)
+        text = image_prompt(config.scene.theme, name, seen, objects=shown, has_reference=has_reference)
+        return ViewPrompt(text=text, theme=config.scene.theme, room=name, sights=tuple(seen))
 
     return prompt
 

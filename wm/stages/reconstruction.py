@@ -7,6 +7,7 @@ import jax
 import numpy as np
 
 from wm import codecs, console
+from wm.color import to_bytes
 from wm.geometry import cast, visible_rooms
 from wm.splat.optimization.padding import Capacity
 from wm.splat.optimization.training import TrainingView
@@ -20,9 +21,9 @@ from wm.stages.history import HISTORY, history_text, read_history
 from wm.stages.ordered import in_order
 from wm.stages.painting import Painted
 from wm.stages.run_context import RunContext
-from wm.stages.scene import POINTS, Scene
+from wm.stages.scene import POINTS, Scene, name_points
 from wm.stages.starting import starting_gaussians
-from wm.types import OUTSIDE, Gaussians, GBuffer, View
+from wm.types import GAUSSIAN_FIELDS, OUTSIDE, Gaussians, GBuffer, View
 
 SPLATS, BY_ROOM = "splats.ply", "stages/splats.npz"
 CURVE_VIEWS = 2
@@ -30,8 +31,6 @@ CURVE_VIEWS = 2
 
 VISIBLE_LOGIT = float(np.log(1 / 254))
 """Of opacity 1 / 255, at or below which every rasterizer of gaussians leaves one out."""
-
-_LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -51,6 +50,7 @@ def reconstruct(run: RunContext, scene: Scene, painted: Painted, heldout: HeldOu
         key = run.key("reconstruct", painted.key, config.fit, config.raster)
         if not run.folder.has("reconstruct", key):
             _fit(run, scene, painted, heldout, capacity, key)
+        name_points(run)
         rooms = _split(codecs.decode_arrays((run.folder.path / BY_ROOM).read_bytes()))
         return ReconstructedScene(
             rooms=rooms,
@@ -160,7 +160,7 @@ def _fit(run: RunContext, scene: Scene, painted: Painted, truths: HeldOut, capac
 def points_of(rooms: Sequence[Gaussians]) -> tuple[np.ndarray, np.ndarray]:
     """The centres [p, 3] of the initial gaussians of all rooms, in order, and their colours [p, 3] uint8."""
     colors = np.concatenate([0.5 + SH_C0 * np.asarray(room.sh[:, 0]) for room in rooms])
-    return np.concatenate([np.asarray(room.means) for room in rooms]), codecs.to_bytes(colors[:, None])[:, 0]
+    return np.concatenate([np.asarray(room.means) for room in rooms]), to_bytes(colors[:, None])[:, 0]
 
 
 def visible_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
@@ -171,9 +171,9 @@ def visible_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
 
 
 def _join(rooms: Sequence[Gaussians]) -> dict[str, np.ndarray]:
-    return {f"{k:05d}.{leaf}": getattr(room, leaf) for k, room in enumerate(rooms) for leaf in _LEAVES}
+    return {f"{k:05d}.{leaf}": getattr(room, leaf) for k, room in enumerate(rooms) for leaf in GAUSSIAN_FIELDS}
 
 
 def _split(arrays: Mapping[str, np.ndarray]) -> tuple[Gaussians, ...]:
     rooms = sorted({name.split(".")[0] for name in arrays})
-    return tuple(Gaussians(**{leaf: arrays[f"{room}.{leaf}"] for leaf in _LEAVES}) for room in rooms)
+    return tuple(Gaussians(**{leaf: arrays[f"{room}.{leaf}"] for leaf in GAUSSIAN_FIELDS}) for room in rooms)

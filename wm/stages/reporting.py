@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from wm.artifacts.digests import json_text
-from wm.codecs import to_bytes
+from wm.color import to_bytes
 from wm.environment import shown
 from wm.geometry import cast, walkthrough
 from wm.geometry.rays.pinhole import scale_camera

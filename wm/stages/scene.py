@@ -23,8 +23,10 @@ from wm.stages import edits
 from wm.stages.arranged import ArrangementError, arranged, is_json
 from wm.stages.hearing import hear
 from wm.stages.run_context import RunContext
-from wm.synth.backends import SceneContext
+from wm.stages.unfurnished import unfurnished
+from wm.synth.backends import ImageDrivenBackend, SceneContext
 from wm.synth.furnished import Furnisher, bare_context, make_furnisher
+from wm.synth.lifting.drawings import drawing_files
 from wm.synth.object_ids import with_ids
 from wm.synth.proposing import propose_plan
 from wm.synth.registry import backend_key, make_backend
@@ -131,14 +133,14 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
     rearranged = [file_digest(_existing(file))] if file is not None else []
     made_of = (_FORMAT, plan_key, *_meshes(context.plan), config.furnish, config.scene.theme, *furnisher.keys)
     key = run.key("furnish", *made_of, *rearranged)
-    if not config.furnish.enabled:
-        return with_ids(context.objects, [room.id for room in context.plan.rooms]), key
+    if not config.furnish.enabled and not context.objects:
+        return (), key
     arrangement = run.folder.path / OBJECTS
     edited = edits.edited_key(run, "furnish", OBJECTS, key)
     if edited is not None and is_json(arrangement.read_bytes()):
         objects = arranged(_furnished(run, context, furnisher), arrangement.read_bytes(), context.plan, str(arrangement))
         consequence = "cameras, paintings and all that follows are made again"
-        edits.accept(run, "furnish", edited, [OBJECT_ARRAYS, OBJECTS], consequence)
+        edits.accept(run, "furnish", edited, [OBJECT_ARRAYS, *_drawings(run, furnisher), OBJECTS], consequence)
         return objects, edited
     if not run.folder.has("furnish", key):
         objects = made = _made(run, context, furnisher)
@@ -146,19 +148,28 @@ def _furnish(run: RunContext, context: SceneContext, plan_key: str) -> tuple[tup
             objects = arranged(made, _existing(file).read_bytes(), context.plan, file)
         text = json_text(codecs.object_summary(objects, [room.id for room in context.plan.rooms]))
         edits.keep_copy(run, "furnish", OBJECTS, text)
-        run.folder.save("furnish", key, {OBJECT_ARRAYS: codecs.encode_objects(made), OBJECTS: text})
+        files = {OBJECT_ARRAYS: codecs.encode_objects(made), OBJECTS: text}
+        for name, content in files.items():
+            run.folder.write(name, content)
+        run.folder.record("furnish", key, [*files, *_drawings(run, furnisher)])
     made = codecs.decode_objects((run.folder.path / OBJECT_ARRAYS).read_bytes())
     return arranged(made, arrangement.read_bytes(), context.plan, str(arrangement)), key
 
 
 def _made(run: RunContext, context: SceneContext, furnisher: Furnisher) -> tuple[SceneObject, ...]:
-    """All objects of the scene as the backend furnishes it, with ids."""
+    """All objects of the scene, with ids: those that the plan lists, and, where it is furnished, those of the backend."""
+    rooms = [room.id for room in context.plan.rooms]
+    if not run.config.furnish.enabled:
+        return with_ids(context.objects, rooms)
     unknown = ", ".join(map(repr, unknown_rooms(room.name for room in context.plan.rooms)))
     if unknown:
         console.say(f"furnish: no use is known of rooms named {unknown}; the offline backends furnish them sparsely")
     with run.bar("furnish", len(context.plan.rooms)) as bar:
         objects = furnisher.furnish(context, done=bar.update)
-    return with_ids(objects, [room.id for room in context.plan.rooms])
+    if isinstance(furnisher.backend, ImageDrivenBackend):
+        for line in unfurnished(run.folder.path, context.plan, objects):
+            console.say(f"furnish: {line}")
+    return with_ids(objects, rooms)
 
 
 def _furnished(run: RunContext, context: SceneContext, furnisher: Furnisher) -> tuple[SceneObject, ...]:
@@ -167,6 +178,11 @@ def _furnished(run: RunContext, context: SceneContext, furnisher: Furnisher) -> 
     if entry is None or not arrays.is_file() or entry["files"].get(OBJECT_ARRAYS) != file_digest(arrays):
         write_atomically(arrays, codecs.encode_objects(_made(run, context, furnisher)))
     return codecs.decode_objects(arrays.read_bytes())
+
+
+def _drawings(run: RunContext, furnisher: Furnisher) -> list[str]:
+    """The files of the images that the furniture was lifted from."""
+    return drawing_files(run.folder.path) if isinstance(furnisher.backend, ImageDrivenBackend) else []
 
 
 def _meshes(plan: FloorPlan) -> list[str]:
@@ -190,9 +206,25 @@ def _cameras(run: RunContext, plan: FloorPlan, rays: RayScene) -> tuple[tuple[Vi
     views = tuple(place_cameras(plan, rays, settings))
     heldout = tuple(place_heldout(plan, rays, views, settings))
     rooms = [room.id for room in plan.rooms]
-    frames = codecs.transforms_json(views, rooms, POINTS)
+    frames = codecs.transforms_json(views, rooms)
     apart = codecs.heldout_json(heldout, rooms, "heldout/{}.truth.png")
     key = run.key("cameras", settings, json.dumps([frames, apart]))
     if not run.folder.has("cameras", key):
         run.folder.save("cameras", key, {CAMERAS: json_text(frames), HELDOUT_CAMERAS: json_text(apart)})
+    name_points(run)
     return views, heldout
+
+
+def name_points(run: RunContext) -> None:
+    """Makes `cameras.json` name the point cloud where the folder has one, and only there: a stopped run has none yet."""
+    entry, path = run.folder.entry("cameras"), run.folder.path / CAMERAS
+    if entry is None:
+        return
+    told = json.loads(path.read_text(encoding="utf-8"))
+    reconstructed = run.folder.entry("reconstruct")
+    has_points = reconstructed is not None and POINTS in reconstructed["files"] and (run.folder.path / POINTS).is_file()
+    if (told.get("ply_file_path") == POINTS) != has_points:
+        told.pop("ply_file_path", None)
+        named = told | ({"ply_file_path": POINTS} if has_points else {})
+        run.folder.write(CAMERAS, json_text(named))
+        run.folder.record("cameras", entry["key"], list(entry["files"]))

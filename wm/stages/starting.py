@@ -3,7 +3,7 @@
 Most lie on the surface that the room's own views show. Exposed surface that these views miss is covered as well
 (wm.geometry.cameras.exposed_surface), in colours from the views of other rooms that see it through the doors, or else from the
 nearest covered surface of the same object and material: the side of a fireplace is as its front and not as the soot behind it.
-No view of the room trains these gaussians, so they keep their colours.
+Those that no view of the room shows start out of sight of its views (wm.stages.tucked), so that the fit does not fade them.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -15,11 +15,12 @@ from scipy.spatial import KDTree
 from wm.geometry import visible_rooms
 from wm.geometry.cameras.exposed_surface import exposed, room_eyes, room_surface
 from wm.geometry.rays.pinhole import camera_center, project_points
-from wm.geometry.rays.surface_points import SurfacePoints, in_picture, in_sight, some_points
+from wm.geometry.rays.surface_points import SurfacePoints, in_picture, in_sight, some_points, times_seen
 from wm.schema import CameraSettings, FitSettings
-from wm.splat.optimization.cloud import Cloud, extended, initial_gaussians, one_a_cell, vacant
+from wm.splat.optimization.cloud import TANGENTIAL, TANGENTIAL_DETAIL, Cloud, extended, initial_gaussians, one_a_cell, vacant
 from wm.splat.optimization.training import TrainingView
 from wm.stages.scene import Scene
+from wm.stages.tucked import tucked
 from wm.types import OUTSIDE, Gaussians, SurfaceKind, View
 
 LOOKALIKES, FACING = 4, 0.25
@@ -53,8 +54,7 @@ def starting_gaussians(
         bare = _bare(scene, room, surface, cloud, cameras, settings)
         colors = np.full((len(bare.face), 3), np.nan) if picture is None else _shown(scene, room, bare, picture)
         colors = np.where(np.isnan(colors), _of_the_same_surface(scene, surface, cloud, bare), colors)
-        spacings = _spacings(scene, bare, settings)
-        return extended(cloud, Cloud(points=bare.position, normals=bare.normal, colors=colors, spacings=spacings))
+        return extended(cloud, _covering(scene, room, bare, colors, _spacings(scene, bare, settings)))
 
     return initial_gaussians(views, settings=settings, rng=rng, complete=complete)
 
@@ -68,6 +68,19 @@ def _bare(
     # Exposed points are selected before cells are, since a cell may also contain a layer that another one hides.
     points = some_points(points, exposed(scene.rays, points, room_eyes(scene.plan, scene.rays, room, cameras)))
     return some_points(points, one_a_cell(points.position, points.normal, _spacings(scene, points, settings)))
+
+
+def _covering(
+    scene: Scene, room: int, bare: SurfacePoints, colors: Float[np.ndarray, "p 3"], spacings: Float[np.ndarray, "p"]
+) -> Cloud:
+    """A cloud on bare points. What no view of the room sees stays out of sight of its views."""
+    cameras = [view.camera for view in scene.views if view.room == room]
+    shown = times_seen(scene.rays, bare, cameras) > 0
+    extents = np.where(shown, TANGENTIAL_DETAIL, TANGENTIAL) * spacings
+    discs = tucked(scene.rays, some_points(bare, ~shown), extents[~shown], cameras)
+    centres, sizes = bare.position.copy(), np.repeat(extents[:, None], 2, axis=1)
+    centres[~shown], sizes[~shown] = discs.centres, discs.extents
+    return Cloud(points=centres, normals=bare.normal, colors=colors, spacings=spacings, extents=sizes, shown=shown)
 
 
 def _spacings(scene: Scene, points: SurfacePoints, settings: FitSettings) -> Float[np.ndarray, "p"]:

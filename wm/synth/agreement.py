@@ -10,8 +10,7 @@ from jaxtyping import Bool, Float
 
 from wm.schema import VerifySettings
 from wm.synth.alignment import aligned_depth
-from wm.synth.canny import depth_edges
-from wm.synth.verify import dilate, dilation_radius
+from wm.synth.verify import dilate, dilation_radius, image_edges
 
 
 def agreement(
@@ -20,6 +19,7 @@ def agreement(
     scaffold_edges: Bool[np.ndarray, "h w"],
     estimate: Float[np.ndarray, "h w"] | None,
     settings: VerifySettings,
+    glass: Bool[np.ndarray, "h w"] | None = None,
 ) -> Bool[np.ndarray, "h w"]:
     """Pixels at which an image agrees with the scaffold; no pixel if there is no depth estimate.
 
@@ -28,15 +28,16 @@ def agreement(
       scaffold_edges: the depth edges of the scaffold.
       estimate: depth of the image up to scale and shift; None if there is no estimate.
       settings: Canny thresholds and the reach of an edge, as in verification.
+      glass: pixels that scale, shift and depth range do not follow. They agree only if their own depth does.
     """
     if estimate is None:
         return np.zeros(hit.shape, bool)
-    finite = np.isfinite(estimate)
-    valid = hit & finite
-    if not valid.any():
-        return valid
-    aligned = aligned_depth(depth, valid, estimate)
+    valid = hit & np.isfinite(estimate)
+    fitted = valid if glass is None else valid & ~glass
+    if not fitted.any():
+        return np.zeros(hit.shape, bool)
+    aligned = aligned_depth(depth, fitted, estimate, field=settings.field)
     agrees = valid & (np.abs(aligned - depth) <= settings.tolerance * depth)
     radius = dilation_radius(settings, hit.shape[1])
-    found = dilate(depth_edges(estimate, finite, low=settings.low, high=settings.high), radius)
+    found = dilate(image_edges(estimate, glass, settings), radius)
     return agrees & ~dilate(scaffold_edges & ~found, radius)

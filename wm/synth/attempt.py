@@ -13,6 +13,7 @@ from jaxtyping import Bool, Float, UInt8
 from scipy.ndimage import maximum_filter
 
 from wm import console
+from wm.color import to_bytes
 from wm.schema import VerifySettings
 from wm.services.faults import RefusedError
 from wm.synth.agreement import agreement
@@ -66,8 +67,9 @@ def paint_view(
       ValueError: a backend returned something other than an image, or a depth estimate, of the view's size.
     """
     edges = binding_edges(shown, request.condition, settings)
-    held = shown.depth if request.condition.objects == "textured" else None
-    condition = as_bytes(request.condition.rgb)
+    held, adds = compared_depth(shown, request.condition, settings), request.condition.objects != "textured"
+    glass = near_glass(request.condition, settings)
+    condition = to_bytes(request.condition.rgb)
     refusals: list[str] = []
     best: tuple[tuple[bool, float, float], PaintedView, np.ndarray | None] | None = None
     for attempt in range(max(settings.max_attempts, 1)):
@@ -77,10 +79,10 @@ def paint_view(
         except RefusedError as refusal:
             refusals.append(str(refusal))
             continue
-        rgb = as_bytes(checked_image(result.rgb, request.view))
+        rgb = to_bytes(checked_image(result.rgb, request.view))
         result = dataclasses.replace(result, rgb=as_float(rgb))
         estimate = _estimate(depth, result, request) if settings.enabled else None
-        verdict = verify(edges, estimate, settings, depth=held)
+        verdict = verify(edges, estimate, settings, depth=held, adds=adds, glass=glass)
         painted = PaintedView(
             rgb=rgb,
             mask=np.ones(shown.hit.shape, bool),
@@ -98,7 +100,7 @@ def paint_view(
             best = (near, painted, estimate)
     if best is None:
         return _refused(request, condition, reference, refusals)
-    mask = agreement(shown.depth, shown.hit, edges, best[2], settings)
+    mask = agreement(shown.depth, shown.hit, edges, best[2], settings, glass)
     return dataclasses.replace(best[1], mask=mask, attempts=max(settings.max_attempts, 1))
 
 
@@ -132,17 +134,33 @@ def _nearness(estimate: np.ndarray | None, verdict: Verdict) -> tuple[bool, floa
 
 
 def binding_edges(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Bool[np.ndarray, "h w"]:
-    """The depth edges of the conditioning scaffold that an image must have. Edges of boxes are left out."""
-    edges = depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high)
-    if condition.objects != "boxes" or condition.object is None:
-        return edges
-    near = np.asarray(maximum_filter(condition.object, 2 * dilation_radius(settings, edges.shape[1]) + 1)).astype(bool)
-    return edges & ~near
+    """The depth edges of the conditioning scaffold that an image must have. Those of boxes and of glass are left out."""
+    return depth_edges(shown.depth, shown.hit, low=settings.low, high=settings.high) & ~_open(shown, condition, settings)
 
 
-def as_bytes(rgb: Float[np.ndarray, "h w 3"]) -> UInt8[np.ndarray, "h w 3"]:
-    """An image in [0, 1], rounded to 8 bits."""
-    return np.round(np.clip(rgb, 0, 1) * 255).astype(np.uint8)
+def compared_depth(shown: GBuffer, condition: Condition, settings: VerifySettings) -> Float[np.ndarray, "h w"]:
+    """The depth that an image is held to: that of the conditioning scaffold; 0 near glass, and near boxes, since furniture does
+    not fill them."""
+    return np.where(_open(shown, condition, settings), np.float32(0), shown.depth)
+
+
+def near_glass(condition: Condition, settings: VerifySettings) -> Bool[np.ndarray, "h w"] | None:
+    """Pixels at or beside a window pane or a mirror, by the reach of an edge; None if the condition tells of none."""
+    return None if condition.glass is None else _near(condition.glass, settings)
+
+
+def _open(shown: GBuffer, condition: Condition, settings: VerifySettings) -> np.ndarray:
+    """[h, w] bool: pixels at which the scaffold does not say what depth an estimate should have."""
+    glass = near_glass(condition, settings)
+    left = np.zeros(shown.hit.shape, bool) if glass is None else glass
+    if condition.objects == "boxes" and condition.object is not None:
+        left = left | _near(condition.object, settings)
+    return left
+
+
+def _near(mask: np.ndarray, settings: VerifySettings) -> np.ndarray:
+    radius = dilation_radius(settings, mask.shape[1])
+    return np.asarray(maximum_filter(mask, 2 * radius + 1)).astype(bool)
 
 
 def as_float(rgb: UInt8[np.ndarray, "h w 3"]) -> Float[np.ndarray, "h w 3"]:

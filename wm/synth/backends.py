@@ -46,6 +46,7 @@ class Condition:
     objects: str = "textured"  # how the scaffold shows objects: textured | boxes | none
     object: np.ndarray | None = None  # [h, w] bool: where the scaffold has an object or a box; None for nowhere
     wall_texture: bool = True  # whether the scaffold shows the texture that finished views have left on it
+    glass: np.ndarray | None = None  # [h, w] bool: where the scaffold has a window pane or a mirror; None for nowhere
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -84,6 +85,15 @@ class Segment:
     score: float = 1.0  # 0..1, how sure the model is
 
 
+@dataclasses.dataclass(frozen=True)
+class Click:
+    """A point of an image that a person says is on a thing, or is not."""
+
+    x: float  # pixels from the left border of the image to the point; the middle of the first pixel is at 0.5
+    y: float  # idem, from the upper border
+    on: bool = True  # whether the thing is there
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class LanguageResult:
     """The answer of a language model."""
@@ -99,7 +109,7 @@ class Surroundings:
     theme: str
     room: str  # name of the room
     view: View  # its name is unique in the scene
-    folder: pathlib.Path | None = None  # the run folder, where clicks of a person lie; None without one
+    folder: pathlib.Path | None = None  # the run folder, where a person's clicks lie (wm.synth.lifting.clicks)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -240,6 +250,33 @@ class ImageDrivenBackend(ObjectsBackend, Protocol):
 class SegmentationBackend(Protocol):
     def segment(self, result: ImageResult, *, where: Surroundings, seed: int) -> list[Segment]:
         """The instances in an image, without structure (walls, doors, windows), each once."""
+        ...
+
+
+@runtime_checkable
+class NamedSegmentation(SegmentationBackend, Protocol):
+    """A segmentation backend that looks for things by their names, which a language model can propose."""
+
+    def with_language(self, language: LanguageBackend) -> SegmentationBackend:
+        """The same backend, which asks this one for names if it can name things (NamingBackend). The caller closes both."""
+        ...
+
+
+@runtime_checkable
+class PreparedSegmentation(SegmentationBackend, Protocol):
+    """A segmentation backend that is told of all images before it segments the first one."""
+
+    def prepare(self, drawn: Sequence[tuple[ImageResult, Surroundings]]) -> None:
+        """Raises InputError if it cannot segment all of these; the message says what a person has to do first."""
+        ...
+
+
+@runtime_checkable
+class ClickedSegmentation(PreparedSegmentation, Protocol):
+    """A segmentation backend that segments what a person has clicked at (wm.annotation)."""
+
+    def mask_of(self, rgb: np.ndarray, clicks: Sequence[Click]) -> Segment:
+        """The thing that these clicks mean in an image of [h, w, 3] uint8 sRGB, without a label. One click at least is on it."""
         ...
 
 

@@ -9,7 +9,7 @@ the wall texture, show objects as grey boxes, or show no objects.
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from wm.bounds import check_settings
 from wm.geometry.mesh.object_colors import object_colors
@@ -18,7 +18,7 @@ from wm.geometry.rays.pinhole import ray_basis
 from wm.geometry.texture.sampling import sample_atlas
 from wm.schema import ConditionConfig, TextureSettings
 from wm.synth.backends import Condition
-from wm.types import OUTSIDE, Atlas, Camera, GBuffer, Mesh, SceneObject
+from wm.types import OUTSIDE, Atlas, Camera, GBuffer, Mesh, SceneObject, SurfaceKind
 
 _DEFAULTS = ConditionConfig()
 _TEXTURE_DEFAULTS = TextureSettings()
@@ -42,7 +42,7 @@ def make_condition(
       camera: the camera of that G-buffer.
       atlas: the texture accumulated so far; None if there is none yet.
       mesh: the mesh of the conditioning scaffold: structure faces first, then those of `objects` in order (`assemble_scene`).
-      objects: the scaffold's objects; only the textured variant uses them.
+      objects: the scaffold's objects: their colours are shown in the textured variant, and mirrors are among them.
       depth_range: (near, far) of the scene, metres.
       settings: which signals are shown.
       texture: how the atlas is read.
@@ -66,8 +66,9 @@ def make_condition(
         else:
             rgb[shown] = light * np.float32(BOX_COLOR)
     return Condition(
-        rgb=rgb, known=known, depth=gbuffer.depth, objects=settings.objects, object=shown, wall_texture=settings.wall_texture
-    )
+        rgb=rgb, known=known, depth=gbuffer.depth, objects=settings.objects, object=shown, wall_texture=settings.wall_texture,
+        glass=glass(gbuffer, mesh, objects),
+    )  # fmt: skip
 
 
 def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.ndarray, "h w"]:
@@ -77,6 +78,13 @@ def depth_grey(gbuffer: GBuffer, depth_range: tuple[float, float]) -> Float[np.n
         raise ValueError(f"the scene's depth range must have near < far, got {near} .. {far}")
     grey = np.clip((far - gbuffer.depth) / (far - near), 0, 1)
     return np.where(gbuffer.hit, grey, 0).astype(np.float32)
+
+
+def glass(gbuffer: GBuffer, mesh: Mesh, objects: Sequence[SceneObject]) -> Bool[np.ndarray, "h w"]:
+    """Where a view shows a window pane or a mirror (by its label): an estimate may tell the depth of what is behind or in it."""
+    mirrors = [index for index, thing in enumerate(objects) if "mirror" in thing.label.lower()]
+    faces = (mesh.face_kind == SurfaceKind.PANE) | np.isin(mesh.face_object, mirrors)
+    return gbuffer.hit & np.append(faces, False)[gbuffer.face]
 
 
 def _headlight(gbuffer: GBuffer, camera: Camera, shown: np.ndarray) -> np.ndarray:

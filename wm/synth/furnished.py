@@ -13,7 +13,7 @@ from wm.services.services import Services
 from wm.synth.backends import ImageDrivenBackend, ObjectsBackend, SceneContext
 from wm.synth.object_ids import with_ids
 from wm.synth.proposing import propose_plan
-from wm.synth.registry import backend_key, close_backend, make_backend, model_settings
+from wm.synth.registry import backend_key, backend_module, close_backend, make_backend, model_settings
 from wm.synth.seeds import PARTS, seed_of
 from wm.types import SceneObject
 
@@ -47,16 +47,19 @@ def make_furnisher(
     Args:
       config, context: the configuration and its scene.
       services: what models ask through; None: kept nowhere and without limits.
-      folder: the run folder, where a person's clicks lie; None without one.
+      folder: the run folder, where drawings are kept and a person's clicks are read; None without one.
     """
     backend: ObjectsBackend = make_backend("objects", config.objects, context, services)
     own = backend_key(config.objects)
     if not isinstance(backend, ImageDrivenBackend):
         return Furnisher(backend, own)
     models = model_settings(config, services, folder)
-    asked = (models.image, models.depth, models.segmentation, models.reconstruction)
+    asked = [models.image, models.depth, models.segmentation, models.reconstruction]
+    if "language" in getattr(backend_module(config.segmentation.backend), "USES", ()):
+        asked.append(config.language)
     drawn = (config.finish, config.light)  # what an image shows of furniture depends on these
-    return Furnisher(backend.with_models(models), (*own, *drawn, *(part for settings in asked for part in backend_key(settings))))
+    keys = (part for settings in asked for part in backend_key(settings, folder))
+    return Furnisher(backend.with_models(models), (*own, *drawn, *keys))
 
 
 def bare_context(config: RunConfig, plan: FloorPlan) -> SceneContext:

@@ -1,6 +1,17 @@
 """The prompts of image models, in our own words: one for painting a view, one for furnishing an empty room."""
 
+import dataclasses
 from collections.abc import Sequence
+
+
+@dataclasses.dataclass(frozen=True)
+class ViewPrompt:
+    """The prompt of a view, and what it was written from, for models that want a prompt of their own (`ImageRequest`)."""
+
+    text: str
+    theme: str = ""  # the scene in words
+    room: str = ""  # name of the room
+    sights: tuple[str, ...] = ()  # doors and windows in view
 
 _FURNITURE = {
     "textured": "Furniture stays exactly where the guide shows it, at the same size and angle.",

@@ -71,13 +71,14 @@ def propose_plan(backend: LanguageBackend, theme: str, rooms: list[str], *, seed
         if not room.strip() or not room.isprintable() or len(room) > LONGEST_ROOM_NAME:
             raise ValueError(f"the room programme names {room!r}; a name has 1 to {LONGEST_ROOM_NAME} printable characters")
     transcript: list[Attempt] = []
-    previous, violations = None, []
+    previous, violations, refused = None, [], 0
     for _ in range(max(max_iterations, 1)):
         start = time.perf_counter()
         try:
-            result = backend.propose(theme, rooms, seed=seed, violations=list(violations), previous=previous)
+            result = backend.propose(theme, rooms, seed=(seed + refused) % 2**63, violations=list(violations), previous=previous)
         except RefusedError as refusal:
             transcript.append(Attempt("", (f"plan: answer: {refusal}",), time.perf_counter() - start))
+            refused += 1  # another seed is another request: the same one would be answered by the kept refusal
             continue
         previous = _text(result)
         plan, violations = _validated(previous, rooms)

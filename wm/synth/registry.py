@@ -14,15 +14,20 @@ The key of a stage whose result depends on a backend contains its path, its sett
     USES                    -> the other groups of backends that it uses
     SERVED                  -> True if its backends ask a model through the run's services (ServedBackend); `make` then needs no
                                scene to say what a request costs
+    secrets(settings)       -> names of the environment variables that its requests need; a run says at once which are not set
     heard(theme)            -> which words of a theme it uses and which it does not know (HeardTheme)
+    reads(folder)           -> JSON values that stand for the files of a run folder that it reads, for the key of its stage
 """
 
+import dataclasses
 import importlib
+import os
 import pathlib
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 from typing import Any
 
+from wm.artifacts.digests import file_digest
 from wm.errors import InputError
 from wm.schema import BackendSettings, RunConfig
 from wm.services.services import Services
@@ -111,9 +116,19 @@ def make_backend(
     return backend.with_services(services) if services is not None and isinstance(backend, ServedBackend) else backend
 
 
-def backend_key(settings: BackendSettings) -> tuple[Any, ...]:
-    """The entries of a stage's key for a backend: its settings, which contain its path, and its version."""
-    return settings, backend_module(settings.backend).VERSION
+def backend_key(settings: BackendSettings, folder: pathlib.Path | None = None) -> tuple[Any, ...]:
+    """The entries of a stage's key for a backend: its settings, which contain its path, its version, and what it reads: in the
+    run folder, and in folders that its settings name."""
+    module = backend_module(settings.backend)
+    reads = [module.reads(folder)] if folder is not None and hasattr(module, "reads") else []
+    return settings, module.VERSION, *reads, *_files_read(settings)
+
+
+def missing_secrets(settings: BackendSettings) -> list[str]:
+    """Names of the environment variables that a backend's requests need and that are not set."""
+    module = backend_module(settings.backend)
+    needed = module.secrets(_own(settings, module)) if hasattr(module, "secrets") else []
+    return [name for name in needed if not os.environ.get(name, "").strip()]
 
 
 def close_backend(backend: Any) -> None:
@@ -160,15 +175,23 @@ def mismatch(group: str, settings: BackendSettings, image: BackendSettings) -> l
     if not missing:
         return []
     needs = f"{group} backend {settings.backend!r} needs what image backend {image.backend!r} does not tell"
-    return [f"{needs} ({', '.join(sorted(missing))}): choose another {group}=NAME, or an image=NAME that tells it"]
+    others = f"choose another {group}=NAME (wm --help {group} lists them), or an image=NAME that tells it"
+    return [f"{needs} ({', '.join(sorted(missing))}): {others}"]
 
 
 def mismatches(config: RunConfig) -> list[str]:
     """Error messages for the backends, among those that the run will use, that do not suit the selected image backend."""
-    asked = {"depth"} if config.verify.enabled else set()
+    furnishing: set[str] = set()
     if config.furnish.enabled:
-        asked |= {"objects", *getattr(backend_module(config.objects.backend), "USES", ())}
-    return [fault for group in GROUPS if group in asked for fault in mismatch(group, getattr(config, group), config.image)]
+        furnishing = {"objects", *getattr(backend_module(config.objects.backend), "USES", ())}
+    asked = furnishing | ({"depth"} if config.verify.enabled else set())
+    without = {"depth": "; verify.enabled=false paints without one"} if "depth" not in furnishing else {}
+    return [
+        fault + without.get(group, "")
+        for group in GROUPS
+        if group in asked
+        for fault in mismatch(group, getattr(config, group), config.image)
+    ]
 
 
 def misplaced(config: RunConfig) -> Iterator[str]:
@@ -179,6 +202,15 @@ def misplaced(config: RunConfig) -> Iterator[str]:
             _own(settings, backend_module(settings.backend))
         except BackendError as error:
             yield f"{group}: {error}"
+
+
+def _files_read(settings: BackendSettings) -> Iterator[list[str]]:
+    """Names and digests of the files in each folder that a field marked by `wm.schema.READ` names."""
+    for field in dataclasses.fields(settings):
+        folder = getattr(settings, field.name)
+        if field.metadata.get("read") and folder is not None:
+            root = pathlib.Path(folder).expanduser()
+            yield [f"{path.relative_to(root)} {file_digest(path)}" for path in sorted(root.rglob("*")) if path.is_file()]
 
 
 def _own(settings: BackendSettings, module: ModuleType) -> BackendSettings:

@@ -4,10 +4,13 @@ recall = |E_M and dilate(E', delta)| / |E_M|, where E_M are the scaffold's depth
 the image. Recall measures missing structure only: things that the model added do not lower it. The paper leaves two cases open:
 if E_M is empty, recall does not apply here, and an image without a depth estimate fails.
 
-Recall is computed over the whole image, so that one missing chair hardly changes it (experiments/verification). If the condition
-shows the objects themselves, the image is therefore also compared with the scaffold's depth: the aligned estimate may disagree
-with it in only a small share of the image. A pixel without an estimate counts as one that disagrees, also if the image may add
-things.
+Recall is computed over the whole image, so that one missing chair hardly changes it (experiments/verification). The image is
+therefore also compared with the scaffold's depth: the aligned estimate may disagree with it in only a small share of the image.
+Where the condition leaves the furniture to the model (boxes, none), what it adds stands in front of the scaffold, so only what
+lies behind it disagrees: a wall that is gone, or front and back confused, whose edges are all in their places. A pixel without an
+estimate counts as one that disagrees.
+
+Window panes and mirrors are left out (`glass`): an estimate may tell their own depth or that of what is seen through or in them.
 """
 
 import dataclasses
@@ -39,6 +42,8 @@ def verify(
     settings: VerifySettings,
     *,
     depth: Float[np.ndarray, "h w"] | None = None,
+    adds: bool = False,
+    glass: Bool[np.ndarray, "h w"] | None = None,
 ) -> Verdict:
     """Verifies an image by the depth estimated from it.
 
@@ -46,7 +51,9 @@ def verify(
       scaffold_edges: `depth_edges` of the scaffold's depth.
       estimate: depth up to scale and shift, NaN where there is no estimate; None if the backend gave no estimate at all.
       settings: thresholds; if `enabled` is False, every image passes.
-      depth: the scaffold's depth, 0 where nothing is hit; None if the image may add things, so that depths are not compared.
+      depth: the scaffold's depth, 0 where nothing is hit or nothing is compared; None for the paper's test, by edges alone.
+      adds: whether the image may add things in front of the scaffold.
+      glass: pixels of which an estimate may say anything or nothing; `scaffold_edges` and `depth` leave them out already.
 
     Raises:
       ValueError: the estimate and the scaffold's edges differ in size.
@@ -58,9 +65,10 @@ def verify(
     if estimate.shape != scaffold_edges.shape:
         raise ValueError(f"the depth estimate is {estimate.shape}; the view is {scaffold_edges.shape}")
     radius = dilation_radius(settings, scaffold_edges.shape[1])
-    edges = depth_edges(estimate, np.isfinite(estimate), low=settings.low, high=settings.high)
+    edges = image_edges(estimate, glass, settings)
     recall = edge_recall(scaffold_edges, edges, radius)
-    apart = _apart(depth, estimate, radius, settings)
+    unknown = ~np.isfinite(estimate) if glass is None else ~np.isfinite(estimate) & ~glass
+    apart = _apart(depth, estimate, unknown, radius, settings, adds)
     enough = recall is None or recall >= settings.min_recall
     close = apart is None or apart <= settings.max_disagreement
     reasons = (
@@ -76,12 +84,25 @@ def verify(
     return Verdict(passed=enough and close, recall=recall, disagreement=apart, reason="; ".join(reasons))
 
 
-def _apart(depth: np.ndarray | None, estimate: np.ndarray, radius: int, settings: VerifySettings) -> float | None:
-    """Share of the image that disagrees with `depth`. If `depth` is None: the share without an estimate, or None if that is 0."""
-    if depth is not None:
-        return float(disagreement(depth, estimate, radius=radius, tolerance=settings.tolerance).mean())
-    unknown = float(np.mean(~np.isfinite(estimate)))
-    return unknown if unknown > 0 else None
+def image_edges(
+    estimate: Float[np.ndarray, "h w"], glass: Bool[np.ndarray, "h w"] | None, settings: VerifySettings
+) -> Bool[np.ndarray, "h w"]:
+    """The depth edges of an image. Its depth range is that of what is not glass, or else a far sight would flatten the room."""
+    finite = np.isfinite(estimate)
+    if glass is not None and (finite & ~glass).any():
+        ranged = estimate[finite & ~glass]
+        estimate = np.clip(estimate, ranged.min(), ranged.max())
+    return depth_edges(estimate, finite, low=settings.low, high=settings.high)
+
+
+def _apart(
+    depth: np.ndarray | None, estimate: np.ndarray, unknown: np.ndarray, radius: int, settings: VerifySettings, adds: bool
+) -> float | None:
+    """Share of the image that disagrees with `depth` or is unknown. If `depth` is None: the latter, or None if that is 0."""
+    if depth is None:
+        return float(unknown.mean()) if unknown.any() else None
+    apart = disagreement(depth, estimate, radius=radius, tolerance=settings.tolerance, adds=adds, field=settings.field)
+    return float((apart | unknown).mean() if adds else apart.mean())
 
 
 def edge_recall(scaffold_edges: Bool[np.ndarray, "h w"], image_edges: Bool[np.ndarray, "h w"], dilation: int) -> float | None:

@@ -30,7 +30,7 @@ def same(found, wanted):
 
 
 @pytest.mark.parametrize(
-    "file", [codecs.transforms_json(views(), ["r0", "r1"], "p.ply"), codecs.heldout_json(views(), ["r0", "r1"], "heldout/{}.png")]
+    "file", [codecs.transforms_json(views(), ["r0", "r1"]), codecs.heldout_json(views(), ["r0", "r1"], "heldout/{}.png")]
 )
 def test_what_is_written_comes_back(tmp_path, file):
     found = read(tmp_path, file)
@@ -39,15 +39,14 @@ def test_what_is_written_comes_back(tmp_path, file):
         assert (a.room, a.kind, a.name) == (b.room, b.kind, b.name)
 
 
-def test_every_frame_names_its_mask_and_the_point_cloud_is_named():
-    file = codecs.transforms_json(views(), ["r0", "r1"], "points.ply")
+def test_every_frame_names_its_mask():
+    file = codecs.transforms_json(views(), ["r0", "r1"])
     assert [frame["mask_path"] for frame in file["frames"]] == [f"views/{view.name}.mask.png" for view in views()]
-    assert file["ply_file_path"] == "points.ply"
 
 
 def bare():
     """A file of another program: only poses in its frames, intrinsics once."""
-    file = codecs.transforms_json(views(), ["r0", "r1"], "p.ply")
+    file = codecs.transforms_json(views(), ["r0", "r1"])
     shared = {name: file["frames"][0][name] for name in ("fl_x", "fl_y", "cx", "cy", "w", "h")}
     frames = [{"file_path": f"./images/{k}.png", "transform_matrix": f["transform_matrix"]} for k, f in enumerate(file["frames"])]
     return {**shared, "frames": frames}

@@ -1,19 +1,17 @@
 """The carved building: closed, as large as the plan says, labelled, and passable exactly where there are openings."""
 
 import dataclasses
-import warnings
 
 import numpy as np
 import pytest
 import shapely
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from tests.geometry.plans import checked, l_shaped, one_room, opening, random_plan, rectangle, slanted_plan, two_rooms, window
 from wm.geometry import (
     FloorPlan,
     PlanError,
-    PlanWarning,
     Room,
     build_ray_scene,
     build_structure,
@@ -107,22 +105,19 @@ def test_laws_of_random_plans(seed, rooms):
     check_laws(plan, build_structure(plan))
 
 
+@pytest.mark.filterwarnings("ignore::wm.geometry.PlanWarning")  # walls that nearly touch are joined
 @given(SEEDS, st.integers(2, 12))
+@example(268, 12)  # the two sides of a wall with a door run askew
+@example(156, 12)  # a wall of a millimetre beside one with a door
+@example(107, 12)  # two corners of one room come to one place
+@example(192, 8)  # a short thick wall almost in line with a thin one
 @settings(max_examples=20)
 def test_laws_of_slanted_and_concave_plans(seed, rooms):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", PlanWarning)
-        try:
-            plan = checked(slanted_plan(seed, rooms))
-        except PlanError:
-            assume(False)
-    mesh = build_structure(plan)
-    if caught:  # walls that nearly touched were joined: slivers beside such a wall may tilt by less than a millimetre
-        assert_watertight(mesh)
-        assert volume(mesh) > 0
-        assert np.abs(mesh.vertices[mesh.faces[mesh.face_kind == SurfaceKind.FLOOR]][..., 2]).max() < 1e-3
-    else:
-        check_laws(plan, mesh)
+    try:
+        plan = checked(slanted_plan(seed, rooms))
+    except PlanError:
+        assume(False)
+    check_laws(plan, build_structure(plan))
 
 
 @pytest.mark.parametrize("plan", [one_room(), two_rooms(), l_shaped()])

@@ -37,6 +37,23 @@ def test_portals_join_the_faces_of_their_rooms(seed, rooms):
             assert threshold.distance(interior_polygon(plan, b)) == pytest.approx(portal.half_depths[1])
 
 
+@given(st.floats(-0.009, 0.009), st.floats(-0.009, 0.009), st.booleans())
+def test_a_door_in_a_wall_askew_ends_at_both_faces(low, high, turned):
+    plan = two_rooms()
+    ring = plan.rooms[1].polygon.copy()
+    ring[0, 0] += low  # walls within a centimetre are one; these are not snapped
+    ring[3, 0] += high
+    rooms = (plan.rooms[0], dataclasses.replace(plan.rooms[1], polygon=ring))
+    plan = dataclasses.replace(plan, rooms=rooms[::-1] if turned else rooms)
+    door = next(portal for portal in portals(plan) if portal.is_way)
+    for side, room in enumerate(door.rooms):
+        face = interior_polygon(plan, room).exterior
+        for end, depth in zip(door.ends, door.depths[side]):
+            away = door.normal if side else -door.normal
+            assert face.distance(shapely.Point(end + depth * away)) < 1e-12
+        assert door.depths[side].mean() == pytest.approx(door.half_depths[side], abs=1e-6)
+
+
 def test_a_door_listed_by_both_rooms_is_one_portal():
     plan = checked(random_plan(7, 12))
     doors = [portal for portal in portals(plan) if portal.kind != "window"]

@@ -9,7 +9,10 @@ from hypothesis import strategies as st
 
 from wm.offline.arrangement.room_type import ROOM_TYPES, room_type
 from wm.offline.style.finish import MATERIALS, SLOTS
+from wm.offline.style.requests import surfaces_in
+from wm.offline.style.style_sheet import rgb
 from wm.offline.style.theme import style_of
+from wm.offline.style.vocabulary.colors import COLORS
 
 FAMILY = {
     "gothic revival mansion with ornate detail and dark wood": "gothic",
@@ -74,6 +77,15 @@ def test_words_change_what_the_family_left_open():
 def test_coloured_walls_do_not_dye_the_sofas():
     plain, walls, red = (style_of(f"scandinavian flat {words}") for words in ("", "with red walls", "in red"))
     assert walls.slot("fabric") == plain.slot("fabric") != red.slot("fabric")
+
+
+def test_a_red_kitchen_leaves_the_other_rooms_as_they_were():
+    plain, asked = style_of("scandinavian flat"), style_of("scandinavian flat with a red kitchen")
+    assert asked.rooms == plain.rooms and asked.slots == plain.slots and asked.accents == plain.accents
+    assert surfaces_in(asked, "bedroom", "bedroom") == plain.surfaces("bedroom")
+    assert surfaces_in(asked, "bakery", "kitchen") == plain.surfaces("kitchen")  # finished like a kitchen, and none
+    kitchen = surfaces_in(asked, "kitchen", "kitchen")
+    assert kitchen.wall.colors[0] == rgb(COLORS["red"]) and kitchen.floor == plain.surfaces("kitchen").floor
 
 
 def test_a_family_with_marble_of_its_own_keeps_it():

@@ -38,6 +38,33 @@ def test_what_is_asked_of_what(theme, requests):
     assert asked(theme) == requests
 
 
+@pytest.mark.parametrize(
+    ("theme", "request_"),
+    [
+        ("a red kitchen", Request("wall", color=RED, room="kitchen")),
+        ("a flat with a dark green dining room", Request("wall", color=toned(GREEN, "dark"), room="dining")),
+        ("yellow bedrooms", Request("wall", color=YELLOW, room="bedroom")),
+        ("a brick kitchen", Request("wall", material="brick", room="kitchen")),
+        ("a marble bathroom", Request("floor", material="marble", room="bathroom")),
+        ("white bathroom floors", Request("floor", color=WHITE, room="bathroom")),
+    ],
+)
+def test_a_color_before_the_name_of_a_room_is_that_rooms(theme, request_):
+    reading = read_theme(theme)
+    assert reading.requests == (request_,)
+    assert not reading.palette and not reading.unknown
+
+
+@pytest.mark.parametrize("theme", ["a red restaurant", "a red family home", "a red room", "a red gallery", "red rooms"])
+def test_a_color_before_the_name_of_a_place_is_all_of_its(theme):
+    reading = read_theme(theme)
+    assert reading.palette == (RED,) and not reading.requests
+
+
+def test_what_is_unwanted_of_a_room_is_no_request_for_it():
+    assert not read_theme("no red kitchen").requests
+
+
 def test_two_colors_of_one_thing():
     (request,) = read_theme("red and white curtains").requests
     assert (request.target, request.color, request.second) == ("curtain", RED, WHITE)

@@ -14,6 +14,7 @@ room's floor, where either label may win; so openings run on by OVERSHOOT and na
 """
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
@@ -116,9 +117,9 @@ def _openings(plan: FloorPlan) -> list[LabelledSolid]:
 
 
 def _door(portal: Portal) -> LabelledSolid:
-    """From face to face, and on into the free air of both rooms."""
+    """From face to face, and on into the free air of both rooms. Faces may be askew: only where it narrows may it leave them."""
     floor, reveal = _label(portal.rooms[0], SurfaceKind.FLOOR), _label(portal.rooms[0], SurfaceKind.REVEAL)
-    first, last = -portal.half_depths[0], portal.half_depths[1]
+    first, last = -portal.depths[0], portal.depths[1]
     steps = [(first - OVERSHOOT, INSET), (first, 0.0), (last, 0.0), (last + OVERSHOOT, INSET)]
     return tunnel(_sections(portal, steps), bottom=floor, side=reveal, first=reveal, last=reveal)
 
@@ -144,16 +145,18 @@ def _barrier(portal: Portal) -> float:
     return min(PANE if portal.kind == "window" else LEAF, sum(portal.half_depths) / 4)
 
 
-def _sections(portal: Portal, steps: list[tuple[float, float]]) -> np.ndarray:
+def _sections(portal: Portal, steps: Sequence[tuple[float | np.ndarray, float]]) -> np.ndarray:
     """[k, 4, 3]: the opening's rectangle at distances along its normal, drawn in by an inset at each.
 
-    Counter-clockwise seen from farther along the normal, because that is on the right of start -> end.
+    A distance is one number, or two for the two ends. Each rectangle is counter-clockwise seen from farther along the normal,
+    because that is on the right of start -> end.
     """
     start, end = portal.ends
     along = (end - start) / portal.width
     sections = []
     for distance, inset in steps:
-        left, right = start + distance * portal.normal + inset * along, end + distance * portal.normal - inset * along
+        at_start, at_end = np.broadcast_to(distance, 2)
+        left, right = start + at_start * portal.normal + inset * along, end + at_end * portal.normal - inset * along
         low, high = portal.sill + inset, portal.head - inset
         sections.append([[*left, low], [*right, low], [*right, high], [*left, high]])
     return np.array(sections)

@@ -2,6 +2,7 @@
 
     records        FloorPlan, Room, Opening, and the violations of a plan
     layout_json    layout text to records, every syntax fault named
+    layout_schema  the JSON schema of layout text, for language models
     object_json    furniture that a plan lists itself
     units          lengths of other units to metres, and other words for openings
     snapping       walls that nearly touch, made to touch

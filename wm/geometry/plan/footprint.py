@@ -12,7 +12,7 @@ import shapely
 from shapely.geometry import Polygon
 
 from wm.geometry.plan.records import FloorPlan
-from wm.geometry.plan.walls import Wall, plan_walls, room_polygons
+from wm.geometry.plan.walls import SHARED, Wall, plan_walls, room_polygons
 
 _MITRE = 4.0  # wall thicknesses beyond a corner at which a mitre is cut off
 _DUST = 1e-6  # square metres below which a part of an interior is rounding error
@@ -33,19 +33,19 @@ def interior_polygon(plan: FloorPlan, room_index: int) -> Polygon:
 @functools.lru_cache(maxsize=4)
 def interiors(plan: FloorPlan) -> tuple[Polygon | None, ...]:
     """The free floor of every room, None where the walls leave no floor in one piece; computed once per plan."""
-    thin = shapely.buffer(
-        room_polygons(plan),
-        -plan.wall_thickness / 2,
-        join_style="mitre",
-        mitre_limit=_MITRE,
-    )
-    return tuple(_interior(polygon, walls) for polygon, walls in zip(thin, plan_walls(plan)))
+    return tuple(_interior(polygon, walls) for polygon, walls in zip(room_polygons(plan), plan_walls(plan)))
 
 
-def _interior(thin: Polygon, walls: tuple[Wall, ...]) -> Polygon | None:
-    """A polygon already moved in by half a wall, less the full thickness of its exterior walls."""
-    bands = [_band(walls, k) for k, wall in enumerate(walls) if not wall.behind]
-    rest = thin.difference(shapely.union_all(shapely.polygons(bands))) if bands else thin
+def _interior(polygon: Polygon, walls: tuple[Wall, ...]) -> Polygon | None:
+    """A polygon less the bodies of its walls.
+
+    shapely's buffer would do where all walls are equally thick, but it moves shallow corners by up to a hundredth of its
+    distance, and openings are carved to within rounding error of a wall's face.
+    """
+    bodies = []
+    for before, after in zip(walls, (*walls[1:], walls[0])):
+        bodies += [_band(before, after.start), *_corner(before, after)]
+    rest = polygon.difference(shapely.union_all(bodies))
     parts = [part for part in shapely.get_parts(rest) if part.area > _DUST]
     if len(parts) != 1 or len(parts[0].interiors):
         return None
@@ -53,22 +53,34 @@ def _interior(thin: Polygon, walls: tuple[Wall, ...]) -> Polygon | None:
     return shapely.orient_polygons(clean)
 
 
-def _band(walls: tuple[Wall, ...], k: int) -> np.ndarray:
-    """[4, 2]: the body of wall k, from just outside to its inner face, run on to where it meets its neighbours' inner faces."""
-    wall = walls[k]
-    at_start = _overrun(wall, walls[k - 1], 1.0)
-    at_end = _overrun(wall, walls[(k + 1) % len(walls)], -1.0)
-    first = wall.start - at_start * wall.direction
-    last = wall.start + (wall.length + at_end) * wall.direction
-    outer, inner = -wall.thickness * wall.normal, wall.thickness * wall.normal
-    return np.stack([first + outer, last + outer, last + inner, first + inner])
+def _band(wall: Wall, end: np.ndarray) -> Polygon:
+    """The body of a wall between its two corners, from just outside to its inner face.
+
+    It has the corners themselves as points, so that it and what fills them (`_corner`) have whole edges in common.
+    """
+    out, into = -SHARED * wall.normal, wall.thickness * wall.normal
+    return Polygon([wall.start, wall.start + out, end + out, end, end + into, wall.start + into])
 
 
-def _overrun(wall: Wall, other: Wall, sign: float) -> float:
-    """Metres past the corner it shares with `other` at which the wall's inner face meets the other's; 0 if before it."""
-    sine = sign * float(wall.direction @ other.normal)
+def _corner(before: Wall, after: Wall) -> list[Polygon]:
+    """What the bodies of two walls leave open at the corner they share, up to where their inner faces meet."""
+    corner, limit = after.start, _MITRE * max(before.thickness, after.thickness)
+    near, far = corner + before.thickness * before.normal, corner + after.thickness * after.normal
+    past, short = _reach(before, after, before.direction), _reach(after, before, -after.direction)
+    meet = near + past * before.direction
+    filled = [Polygon([corner, face, meet]) for face, reach in ((near, past), (far, short)) if 0 < reach <= limit]
+    if filled:
+        return filled
+    if float(before.direction @ after.normal) <= 0:  # the corner does not point into the room
+        return []
+    on = limit / 2 if float(before.direction @ after.direction) < 0 else 0.0  # a sharp corner is cut off straight, not short
+    return [Polygon([corner, near, near + on * before.direction, far - on * after.direction, far])]
+
+
+def _reach(wall: Wall, other: Wall, onward: np.ndarray) -> float:
+    """Metres past the corner it shares with `other`, `onward`, at which the wall's inner face meets the other's; 0 if nowhere."""
+    sine = float(onward @ other.normal)
     if abs(sine) < 1e-9:
         return 0.0
     # From (V + t n + s u) . n_other = t_other, with s along the wall away from itself.
-    reach = -(other.thickness - wall.thickness * float(wall.normal @ other.normal)) / sine
-    return reach if 0 < reach <= _MITRE * wall.thickness else 0.0
+    return (other.thickness - wall.thickness * float(wall.normal @ other.normal)) / sine

@@ -11,6 +11,7 @@ import numpy as np
 from wm.geometry.plan.object_json import object_json, read_objects
 from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, PlanObject, Room, Violation
 from wm.geometry.plan.units import METRES, OPENINGS, metres_per, opening_kind, unread
+from wm.geometry.plan.walls import distinct
 from wm.schema import LONGEST_ROOM_NAME
 
 MAX_BYTES = 8 * 2**20
@@ -20,12 +21,13 @@ MAX_OPENINGS = 64  # per room
 MAX_COORDINATE = 1e4  # metres
 CEILING = (1.8, 50.0)  # metres: nobody can stand under a lower ceiling
 WALL = (0.05, 1.0)
+WIDEST = 100.0  # metres, of an opening
 WINDOW_SILL = 0.9  # where a window does not say
 # Ids become folder names (views/<room>/), so they hold no character that means something in a path.
-_ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
+ROOM_ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
+OPENING_SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
+"""Least width and height, metres; a body of 0.25 m radius must pass a door."""
 _MOST_NOTES = 20
-# Least and greatest width and height, metres; a body of 0.25 m radius must pass a door.
-_SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
 
 
 def decode(text: str, source: str) -> Any:
@@ -84,7 +86,9 @@ def _room_json(room: Room) -> dict[str, Any]:
 class Reader:
     """Collects violations while it turns decoded JSON into records; what cannot be read is None."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, metres: bool = False) -> None:
+        """Args: metres: every length is taken for metres, whatever the document says of units."""
+        self._metres = metres
         self.violations: list[Violation] = []
         self.notes: list[str] = []  # a sentence for each thing that is not read
         self.scale = 1.0  # metres per unit of the document
@@ -114,6 +118,20 @@ class Reader:
         self.rooms_missing = len(good) < len(read)
         return FloorPlan(good, wall, ceiling) if good else None
 
+    def blame_units(self, document: Any) -> None:
+        """Makes one violation of all numbers out of range where each would be in range in metres: the unit is what is wrong."""
+        out_of_range = [fault for fault in self.violations if fault.rule == "number"]
+        if self.scale == 1 or len(out_of_range) < 2:
+            return
+        in_metres = Reader(metres=True)
+        in_metres.plan(document)
+        if not any(fault.rule == "number" for fault in in_metres.violations):
+            self.violations = [fault for fault in self.violations if fault.rule != "number"]
+            units = _show(document["metadata"]["units"])
+            example = out_of_range[0].message.split(";")[0]
+            message = f"metadata.units is {units}, and so {example}; every length fits a building of metres: say 'meters'"
+            self._fault(None, "units", message)
+
     def objects(self, document: dict[str, Any], rooms: Sequence[Room], folder: Path | None) -> tuple[PlanObject, ...]:
         """The furniture that the document lists, in these rooms; relative mesh files lie in `folder`."""
         things, faults, notes = read_objects(_given(document, "objects", []), rooms, scale=self.scale, folder=folder)
@@ -137,7 +155,7 @@ class Reader:
         units, system = _given(metadata, "units", "meters"), _given(metadata, "coordinate_system", "z_up")
         if metres_per(units) is None:
             self._fault(None, "units", f"metadata.units is {_show(units)}; choices: {', '.join(METRES)}")
-        self.scale = metres_per(units) or 1.0
+        self.scale = 1.0 if self._metres else metres_per(units) or 1.0
         if system != "z_up":
             self._fault(None, "units", f"metadata.coordinate_system is {_show(system)}; only 'z_up' is understood")
         wall = self._number(None, metadata, "metadata.wall_thickness", WALL_THICKNESS, *WALL)
@@ -150,7 +168,7 @@ class Reader:
             self._fault(name, "type", f"a room is an object, not {_kind(value)}")
             return None
         room_id = value.get("id")
-        if isinstance(room_id, str) and _ID.fullmatch(room_id):
+        if isinstance(room_id, str) and ROOM_ID.fullmatch(room_id):
             name = room_id
         else:
             self._fault(
@@ -191,10 +209,10 @@ class Reader:
             self._fault(room, "opening_type", f"{name}.type is {_show(value.get('type'))}; choices: {', '.join(OPENINGS)}")
             return None
         segment = self._points(room, value.get("wall_segment"), f"{name}.wall_segment", 2, 2)
-        least_width, least_height = _SIZES[kind]
+        least_width, least_height = OPENING_SIZES[kind]
         position = self._number(room, value, f"{name}.position", None, 0.0, MAX_COORDINATE)
         why = "" if kind == "window" else ", so that a person gets through"
-        width = self._number(room, value, f"{name}.width", None, least_width, 100.0, why)
+        width = self._number(room, value, f"{name}.width", None, least_width, WIDEST, why)
         height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1], why)
         sill = self._number(
             room,
@@ -248,8 +266,7 @@ class Reader:
 
 def _counter_clockwise(points: np.ndarray) -> np.ndarray:
     """The polygon without repeated neighbouring points, counter-clockwise; clockwise ones are reversed."""
-    apart = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1) > 1e-6
-    points = points[apart] if apart.any() else points[:1]
+    points = distinct(points)
     x, y = points.T
     area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
     return points[::-1].copy() if area < 0 else points

@@ -94,6 +94,7 @@ def read_plan(document: Any, source: str, folder: Path | None = None) -> PlanRea
     """
     reader = Reader()
     plan = reader.plan(document)
+    reader.blame_units(document)
     changes: tuple[str, ...] = ()
     violations: list[Violation] = []
     if plan is not None:

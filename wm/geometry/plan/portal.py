@@ -74,6 +74,20 @@ class Portal:
         return depth, depth
 
     @functools.cached_property
+    def depths(self) -> np.ndarray:
+        """[2, 2] metres along `normal` from the centre line to the wall's face: in a and in b, at each of `ends`.
+
+        The two lines of a shared wall may run askew within SHARED; the depth behind then differs from end to end, and
+        `half_depths` is its mean.
+        """
+        mine = np.full(2, self.half_depths[0])
+        if self.behind is None:
+            return np.stack([mine, mine])
+        reach = self.wall.thickness * np.hypot(1.0, self.behind.slope)  # to the other face, along the normal of this one
+        theirs = np.array([self._centre + self.behind.gap(along) + reach for along in (self.low, self.high)])
+        return np.stack([mine, theirs]) if self.rooms[0] == self.wall.room else np.stack([theirs[::-1], mine])
+
+    @functools.cached_property
     def width(self) -> float:
         """Metres."""
         return float(np.linalg.norm(self.ends[1] - self.ends[0]))

@@ -1,7 +1,8 @@
 """The rules of a plan, each with a name; all rules that a plan breaks are reported at once.
 
 Each room is checked on its own first, then all sound rooms together. Where a room is broken or missing, what depends on it
-(doors that may lead there, whether everything can be reached) is not judged.
+(doors that may lead there, whether everything can be reached) is not judged; nor is whether a room can be reached that overlaps
+another, or has a door beside it that is at fault itself.
 """
 
 import dataclasses
@@ -18,6 +19,8 @@ from wm.geometry.plan.walls import SHARED, room_polygons
 LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius, a little more than a body, to be entered
 LEAST_AREA = 0.01  # square metres: a polygon of less counts as having no area
 OUTLOOK = 0.3  # metres of open air a window needs before it
+NEIGHBOUR = 0.5  # metres between rooms that a door may have been meant to join
+_TOO_SMALL = "; make it larger, or leave it out of the plan if nobody enters it"
 _ADVICE = "; put one on a wall that it shares"
 MOST_OVERLAPS = 256  # more are not listed, and no other rule is checked then
 
@@ -66,11 +69,12 @@ def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing
     if len(overlaps) >= MOST_OVERLAPS:
         return tuple(violations)
     portals, misplaced = place_openings(plan, unknown)
-    violations += [*_cramped(plan), *misplaced]
-    violations += [fault for portal in portals if (fault := _squeezed(plan, portal)) is not None]
-    violations += _blocked(plan, portals)
+    of_openings = [*misplaced]
+    of_openings += [fault for portal in portals if (fault := _squeezed(plan, portal)) is not None]
+    of_openings += _blocked(plan, portals)
+    violations += [*_cramped(plan), *of_openings]
     if unknown is None and not openings_missing:
-        violations += _unreachable(plan, portals)
+        violations += _unreachable(plan, portals, doubtful=[*overlaps, *of_openings])
     return tuple(violations)
 
 
@@ -94,7 +98,7 @@ def _shape_fault(room: Room) -> Violation | None:
     if polygon.area < LEAST_AREA:
         return Violation(room.id, "zero_area", f"floor_polygon covers less than {LEAST_AREA:g} m^2")
     if polygon.buffer(-LEAST_DISK).is_empty:
-        return Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits into floor_polygon")
+        return Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits into floor_polygon{_TOO_SMALL}")
     return None
 
 
@@ -141,7 +145,9 @@ def _cramped(plan: FloorPlan) -> list[Violation]:
         if floor is None:
             violations.append(Violation(room.id, "room_too_small", "its walls leave no floor in one piece"))
         elif floor.buffer(-LEAST_DISK).is_empty:
-            violations.append(Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits between its walls"))
+            violations.append(
+                Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits between its walls{_TOO_SMALL}")
+            )
     return violations
 
 
@@ -210,13 +216,12 @@ def _strip(portal: Portal, first: float, second: float) -> shapely.Polygon:
     )
 
 
-def _unreachable(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
+def _unreachable(plan: FloorPlan, portals: tuple[Portal, ...], doubtful: list[Violation]) -> list[Violation]:
     ways: list[list[int]] = [[] for _ in plan.rooms]
-    for portal in portals:
-        if portal.behind is not None:
-            a, b = portal.rooms
-            ways[a].append(b)
-            ways[b].append(a)
+    joined = [portal.rooms for portal in portals if portal.is_way]
+    for a, b in (*joined, *_perhaps(plan, doubtful)):
+        ways[a].append(b)
+        ways[b].append(a)
     component = [-1] * len(plan.rooms)
     for seed in range(len(plan.rooms)):
         queue = [seed] if component[seed] < 0 else []
@@ -232,3 +237,12 @@ def _unreachable(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation
         for room, part in zip(plan.rooms, component)
         if part != main
     ]
+
+
+def _perhaps(plan: FloorPlan, faults: list[Violation]) -> list[tuple[int, int]]:
+    """Pairs of neighbours of which one breaks a rule that, once kept, may join them."""
+    blamed = {fault.room for fault in faults if fault.rule != "window_interior"}
+    rooms = np.array([k for k, room in enumerate(plan.rooms) if room.id in blamed], dtype=int)
+    polygons = room_polygons(plan)
+    i, j = shapely.STRtree(polygons).query(polygons[rooms], predicate="dwithin", distance=NEIGHBOUR)
+    return list(zip(rooms[i].tolist(), j.tolist()))

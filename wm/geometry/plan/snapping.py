@@ -14,6 +14,7 @@ import shapely
 from jaxtyping import Float
 
 from wm.geometry.plan.records import Room
+from wm.geometry.plan.walls import distinct
 
 SNAP = 0.025  # metres: 0.3 degrees over a wall of 4.8 m
 EXACT = 1e-6  # metres within which points are one, as `Reader` takes them to be
@@ -95,14 +96,17 @@ def _onto_walls(points: Float[np.ndarray, "n 2"], owner: np.ndarray, following: 
 
 
 def _moved(room: Room, polygon: Float[np.ndarray, "k 2"]) -> Room:
-    """A room with its corners moved; each end of an opening's segment moves as the nearest point of its old outline does."""
+    """A room with its corners moved; each end of an opening's segment moves as the nearest point of its old outline does.
+
+    Two corners of a room that have come to one place, each that of another neighbour, are one.
+    """
     ends = np.stack([room.polygon, np.roll(room.polygon, -1, axis=0)], axis=1)  # [k, end, xy]
     shift = np.stack([polygon - room.polygon, np.roll(polygon - room.polygon, -1, axis=0)], axis=1)
     openings = tuple(
         dataclasses.replace(opening, segment=np.stack([_carried(point, ends, shift) for point in opening.segment]))
         for opening in room.openings
     )
-    return dataclasses.replace(room, polygon=polygon, openings=openings)
+    return dataclasses.replace(room, polygon=distinct(polygon), openings=openings)
 
 
 def _carried(

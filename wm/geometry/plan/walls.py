@@ -17,6 +17,7 @@ from wm.geometry.plan.records import FloorPlan
 SHARED = 0.01  # metres within which walls are one: the paper's tolerance
 _BATCH = 1024  # walls per query of the tree
 _STRAIGHT = 1e-6  # metres a point may lie off the line of its neighbours and still be on one wall
+_ONE_PLACE = 1e-6  # metres within which neighbouring corners are one
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,9 +30,14 @@ class Behind:
     gap_low: float  # signed distance of the other wall outside this one at `low`, within +-SHARED
     gap_high: float  # and at `high`
 
+    @property
+    def slope(self) -> float:
+        """Metres by which the gap grows over a metre of wall."""
+        return (self.gap_high - self.gap_low) / (self.high - self.low)
+
     def gap(self, along: float) -> float:
         """The signed distance of the other wall outside this one, metres along it."""
-        return self.gap_low + (self.gap_high - self.gap_low) * (along - self.low) / (self.high - self.low)
+        return self.gap_low + self.slope * (along - self.low)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -45,6 +51,12 @@ class Wall:
     length: float
     thickness: float  # metres from the polygon's edge to the inner face
     behind: tuple[Behind, ...]  # by increasing `low`; none: an exterior wall
+
+
+def distinct(points: np.ndarray) -> np.ndarray:
+    """The points [k, 2] of a ring less those at the place of the one before them."""
+    apart = np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1) > _ONE_PLACE
+    return points[apart] if apart.any() else points[:1]
 
 
 def straight_ring(polygon: np.ndarray) -> np.ndarray:

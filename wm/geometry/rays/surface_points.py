@@ -11,7 +11,7 @@ from wm.geometry.rays.pinhole import camera_center, project_points
 from wm.geometry.rays.raycast import RayScene, occluded
 from wm.types import Camera, Mesh, SurfaceKind
 
-_OFF_SURFACE = 1e-3
+OFF_SURFACE = 1e-3
 """Metres in front of its surface from which a point looks, so that it does not shadow itself."""
 
 
@@ -56,9 +56,9 @@ def in_sight(
     """Whether the points `which` face the eye with nothing between, bool."""
     normal = points.normal[which]
     towards = eye - points.position[which]
-    seen = np.sum(normal * towards, axis=1) > _OFF_SURFACE
+    seen = np.sum(normal * towards, axis=1) > OFF_SURFACE
     facing = np.flatnonzero(seen)
-    origins = points.position[which[facing]] + _OFF_SURFACE * normal[facing]
+    origins = points.position[which[facing]] + OFF_SURFACE * normal[facing]
     seen[facing] = ~occluded(scene, origins, eye - origins, 1.0 - 1e-4)
     return seen
 

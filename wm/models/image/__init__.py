@@ -1,7 +1,14 @@
-"""Backends that draw views.
+"""Image backends of real models.
 
-    flux2_klein  FLUX.2 [klein] of Black Forest Labs, on this machine
-    canvas       the size at which a model draws a view, and images scaled between the two
+What they are shown, told and read is the same for all. A backend returns what registers with the view's camera pixel by pixel,
+whatever size its model draws.
 
-A backend returns what registers with the view's camera pixel by pixel, whatever size its model draws.
+    nano_banana_pro  Google's Gemini image models, by google-genai
+    openai_images    OpenAI's GPT image models, by the images edit endpoint
+    flux2_klein      FLUX.2 [klein] of Black Forest Labs, on this machine
+    drawing          DrawingRequest: what a model is shown and told for a view
+    drawing_model    DrawingModel: a backend that asks a service for images
+    pictures         images as files: what models are sent, and what they send
+    registration     views on the canvases that services offer, without shifting a pixel
+    canvas           the size at which a local model draws a view, and images scaled between the two
 """

@@ -7,6 +7,8 @@ with its colours and pattern parameters; a *slot* is the name a piece of furnitu
 
 import dataclasses
 
+from wm.offline.style.reading import Request
+
 Rgb = tuple[float, float, float]
 """sRGB-encoded colour in [0, 1]."""
 
@@ -138,6 +140,7 @@ class Style:
     light: Light
     accents: tuple[Rgb, ...]  # colours for books, cushions, pictures, vases; at least five
     wishes: tuple[Wish, ...] = ()  # what the theme asks of some kinds of furniture
+    asked: tuple[Request, ...] = ()  # what it asks of the surfaces of one sort of room (wm.offline.style.requests.surfaces_in)
 
     def surfaces(self, room_type: str) -> Surfaces:
         """Finishes of a room's structure, those of "other" where the type has none of its own."""

@@ -12,6 +12,7 @@ class Request:
     second: str = ""  # another colour of the same thing: "red and white walls"
     material: str = ""  # key of vocabulary.materials.MATERIAL_WORDS
     absent: bool = False  # the thing is not wanted
+    room: str = ""  # sort of room (wm.synth.room_names) whose surface it is; "" for all rooms
 
 
 @dataclasses.dataclass(frozen=True)

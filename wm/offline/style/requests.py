@@ -37,10 +37,21 @@ def granted(style: Style, reading: ThemeReading) -> Style:
     return style
 
 
+def surfaces_in(style: Style, sort: str, kind: str) -> Surfaces:
+    """The surfaces of a room of this sort (wm.synth.room_names), which is finished like rooms of `kind`."""
+    surfaces = style.surfaces(kind)
+    for request in style.asked:
+        if request.room == sort:
+            surfaces = _resurfaced(surfaces, kind, TARGETS[request.target].surface, request, MATERIAL_WORDS.get(request.material))
+    return surfaces
+
+
 def _granted(style: Style, request: Request) -> Style:
     target, material = TARGETS[request.target], MATERIAL_WORDS.get(request.material)
     if request.absent:
         return _with_wish(style, Wish(target.kinds, absent=True)) if target.kinds else style
+    if target.surface and request.room:
+        return dataclasses.replace(style, asked=(*style.asked, request))
     if target.surface:
         rooms = tuple((kind, _resurfaced(surfaces, kind, target.surface, request, material)) for kind, surfaces in style.rooms)
         return dataclasses.replace(style, rooms=rooms)

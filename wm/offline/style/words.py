@@ -1,8 +1,9 @@
 """A theme's words read into a ThemeReading: families, colours, materials, moods, and what is asked for what.
 
 Colours, materials and tones in a row wait for a noun: "dark green velvet sofa" is one request. Without a noun a colour joins the
-palette and a material goes where it usually is. "of", "in", "painted" and the like lead from a noun back to its colours and
-materials: "walls of red brick". "no", "without" and the like turn what follows, up to a comma, into what is not wanted.
+palette and a material goes where it usually is; before one room's name ("a red kitchen") both are that room's. "of", "in",
+"painted" and the like lead from a noun back to its colours and materials: "walls of red brick". "no", "without" and the like turn
+what follows, up to a comma, into what is not wanted.
 """
 
 import colorsys
@@ -15,7 +16,9 @@ from wm.offline.style.reading import Request, ThemeReading
 from wm.offline.style.style_sheet import hex_code, mix_rgb, rgb
 from wm.offline.style.vocabulary.colors import TONES, VIVID
 from wm.offline.style.vocabulary.materials import MATERIAL_WORDS
-from wm.offline.style.vocabulary.phrases import FILLERS, NEGATIONS, POSTFIX
+from wm.offline.style.vocabulary.phrases import FILLERS, NEGATIONS, POSTFIX, ROOM_NOUNS
+from wm.offline.style.vocabulary.targets import TARGETS
+from wm.synth.room_names import OTHER, ROOM, room_sort
 
 NEUTRAL = "modern"
 OWN: dict[str, frozenset[str]] = {
@@ -38,6 +41,7 @@ class _Pending:
     colors: list[str] = dataclasses.field(default_factory=list)
     materials: list[str] = dataclasses.field(default_factory=list)
     tone: str = ""
+    room: str = ""  # sort of room that their noun is in: "red kitchen walls"
     places: list[int] = dataclasses.field(default_factory=list)  # of their words
 
     def __bool__(self) -> bool:
@@ -112,6 +116,30 @@ class _Reader:
             self.known.add(k)
             self.used.add(k)
             self.moods += [] if self.negated[k] else [word.mood]
+        elif (self.pending.colors or self.pending.materials) and (room := self._room(k)):
+            self._of_room(k, room)
+
+    def _room(self, k: int) -> str:
+        """The sort of room that a word names, alone or with "room" after it; "" where it names none, or a whole place."""
+        word = self.words[k]
+        alone = word.text.endswith(("room", "rooms")) or not {word.text, word.text.removesuffix("s")}.isdisjoint(ROOM_NOUNS)
+        if word.families or self.negated[k] or not (alone or self._before_room(k)):
+            return ""
+        sort = room_sort(f"{word.text} room" if self._before_room(k) else word.text)
+        return "" if sort in (ROOM, OTHER) else sort
+
+    def _before_room(self, k: int) -> bool:
+        return not self.words[k].ends and k + 1 < len(self.words) and self.words[k + 1].lemma in ("room", "rooms")
+
+    def _of_room(self, k: int, sort: str) -> None:
+        """Colours and materials of one room: of its walls, or of the thing in it that is named next."""
+        last = k + 1 if self._before_room(k) else k
+        self.pending.places += range(k, last + 1)
+        self.pending.room = sort
+        after = self.words[last + 1] if last + 1 < len(self.words) and not self.words[last].ends else None
+        if after is None or not after.target:
+            material = MATERIAL_WORDS[self.pending.materials[-1]].target if self.pending.materials else "wall"
+            self._ask(material if TARGETS[material].surface else "")
 
     def _is_own(self, k: int, word: Word) -> bool:
         """Whether the family is made of this anyway, or it is the surface of which that was just said."""
@@ -184,7 +212,8 @@ class _Reader:
             target, material = "wall", material or "panelling"
             if material == "panelling" and any(name == "space" for name, _ in self.families):
                 material = "plastic"
-        self.requests.append(Request(target, color=first, second=second, material=material))
+        room = waiting.room if TARGETS[target].surface else ""
+        self.requests.append(Request(target, color=first, second=second, material=material, room=room))
         for extra in waiting.materials[:-1]:
             self.requests.append(Request(MATERIAL_WORDS[extra].target, material=extra))
         self._done()

@@ -12,6 +12,7 @@ from wm.geometry.plan.site import WallOpening, wall_opening
 from wm.geometry.rays.raycast import RayScene
 from wm.offline.arrangement.room_type import finish_type, room_type
 from wm.offline.style.finish import Style
+from wm.offline.style.requests import surfaces_in
 from wm.offline.world.light import (
     BakeSettings,
     LightPoints,
@@ -34,6 +35,7 @@ from wm.offline.world.pieces import SPECULAR, Pieces, build_pieces, mean_albedo
 from wm.offline.world.pyramid import Pyramid, build_pyramid
 from wm.offline.world.surfaces import Chart, Interior, TexelSheet, dress
 from wm.offline.world.tone import tone
+from wm.synth.room_names import room_sort
 from wm.synth.seeds import room_number
 from wm.types import OUTSIDE, SceneObject, SurfaceKind
 
@@ -119,14 +121,15 @@ def bake_settings(texel_size: float) -> BakeSettings:
 
 
 def _interior(plan: FloorPlan, room: int, style: Style, seed: int) -> Interior:
-    kind = finish_type(room_type(plan.rooms[room].name))
+    name = plan.rooms[room].name
+    kind = finish_type(room_type(name))
     return Interior(
-        name=plan.rooms[room].name,
+        name=name,
         kind=kind,
         polygon=np.asarray(interior_polygon(plan, room).exterior.coords)[:-1],
         height=plan.rooms[room].ceiling_height,
         style=style,
-        surfaces=style.surfaces(kind),
+        surfaces=surfaces_in(style, room_sort(name), kind),
         seed=_room_seed(plan, room, seed),
     )
 

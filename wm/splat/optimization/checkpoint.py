@@ -10,9 +10,8 @@ from wm.splat.optimization.divergence_monitor import DivergenceMonitor
 from wm.splat.optimization.refinement import Residual
 from wm.splat.optimization.room_state import RoomState
 from wm.splat.optimization.step import TrainState, adam_state
-from wm.types import Gaussians
+from wm.types import GAUSSIAN_FIELDS, Gaussians
 
-_LEAVES = ("means", "quats", "log_scales", "opacity_logits", "sh")
 _GROUPS = ("gaussians", "mu", "nu")
 _OTHERS = ("count", "step", "history", "since", "stopped")
 
@@ -24,7 +23,7 @@ def to_arrays(state: RoomState) -> dict[str, np.ndarray]:
     """
     moments = state.train.moments
     groups = dict(zip(_GROUPS, (state.train.gaussians, moments.mu, moments.nu)))
-    arrays = {f"{group}.{leaf}": np.asarray(getattr(record, leaf)) for group, record in groups.items() for leaf in _LEAVES}
+    arrays = {f"{group}.{leaf}": np.asarray(getattr(one, leaf)) for group, one in groups.items() for leaf in GAUSSIAN_FIELDS}
     history = np.array([dataclasses.astuple(point) for point in state.history], np.float64)
     arrays |= {
         "count": np.asarray(moments.count),
@@ -46,7 +45,7 @@ def from_arrays(arrays: Mapping[str, np.ndarray]) -> RoomState:
 
     Raises: ValueError naming what is missing, or that the history has other fields.
     """
-    needed = [*(f"{group}.{leaf}" for group in _GROUPS for leaf in _LEAVES), *_OTHERS]
+    needed = [*(f"{group}.{leaf}" for group in _GROUPS for leaf in GAUSSIAN_FIELDS), *_OTHERS]
     for prefix, kind in (("residual", Residual), ("monitor", DivergenceMonitor)):
         needed += _names(kind, prefix) if _has(prefix, arrays) else []
     missing = [name for name in needed if name not in arrays]
@@ -79,7 +78,7 @@ def _flat(prefix: str, record) -> dict[str, np.ndarray]:
 
 
 def _gaussians(prefix: str, arrays: Mapping[str, np.ndarray]) -> Gaussians:
-    return Gaussians(**{leaf: np.asarray(arrays[f"{prefix}.{leaf}"]) for leaf in _LEAVES})
+    return Gaussians(**{leaf: np.asarray(arrays[f"{prefix}.{leaf}"]) for leaf in GAUSSIAN_FIELDS})
 
 
 def _has(prefix: str, arrays: Mapping[str, np.ndarray]) -> bool:
@@ -92,7 +91,7 @@ def _names(kind, prefix: str) -> list[str]:
     names = []
     for field in dataclasses.fields(kind):
         name = f"{prefix}.{field.name}"
-        names += [f"{name}.{leaf}" for leaf in _LEAVES] if field.type is Gaussians else [name]
+        names += [f"{name}.{leaf}" for leaf in GAUSSIAN_FIELDS] if field.type is Gaussians else [name]
     return names
 
 

@@ -41,6 +41,9 @@ DROP, RELATIVE_DROP = 0.1, 0.08
 RANDOM_OPACITY = 0.5
 """Initial opacity of the `random` variant, as in the prototype's figures: opaque ones in free air hide each other."""
 
+HIDDEN_OPACITY = 0.97
+"""Initial opacity of what no view of the room shows, at least: the fit hardly raises it, and its gaussians overlap less."""
+
 _BITS = 19
 _SHIFT = 0.381966
 """The grid of cells is shifted by this share of a cell, so that walls at round coordinates do not lie between two."""
@@ -56,6 +59,8 @@ class Cloud:
     normals: np.ndarray  # [n, 3] float64 unit
     colors: np.ndarray  # [n, 3] float64 in [0, 1]
     spacings: np.ndarray  # [n] float64, metres: edge of the cell that each stands for
+    extents: np.ndarray  # [n, 2] float64, metres: standard deviations along the surface
+    shown: np.ndarray  # [n] bool: whether a view of the room shows it
 
 
 def surface_cloud(views: Iterable[TrainingView], spacing: float, detail_spacing: float | None = None) -> Cloud:
@@ -91,6 +96,8 @@ def surface_cloud(views: Iterable[TrainingView], spacing: float, detail_spacing:
         normals=np.where(length > 0, sums[:, 3:6] / np.where(length > 0, length, 1), [0.0, 0.0, 1.0]),
         colors=np.where(seen > 0, sums[:, 6:9] / np.where(seen > 0, seen, 1), np.nan),
         spacings=edges[keys >> 3 * _BITS + 3],
+        extents=np.repeat((edges * [TANGENTIAL, TANGENTIAL_DETAIL])[keys >> 3 * _BITS + 3][:, None], 2, axis=1),
+        shown=np.ones(len(keys), bool),
     )
     return _with_all_colors(cloud)
 
@@ -101,29 +108,33 @@ def vacant(
     normals: Float[np.ndarray, "n 3"],
     spacings: Float[np.ndarray, "n"],
 ) -> Int[np.ndarray, "k"]:
-    """Which points are where the cloud leaves a surface bare, in their order: none of the cloud is about.
-
-    About is in the same cell of the largest spacing and facing the same way: views leave gaps of a fine cell wherever they see
-    a surface at a slant, and the gaussians beside those close them.
+    """Which points are where the cloud leaves a surface bare, in their order: none of the cloud that faces much the same way is
+    within the edge of their cells.
 
     Args:
         points, normals: on the surface the cloud should cover, metres and unit.
         spacings: edges of their cells, metres.
     """
-    if not len(points):
-        return np.zeros(0, np.int64)
+    if not len(points) or not len(cloud.points):
+        return np.arange(len(points))
     widest = spacings.max()
-    covered = _cells(cloud.points, cloud.normals, np.full(len(cloud.points), widest), 0)
-    return np.flatnonzero(~np.isin(_cells(points, normals, np.full(len(points), widest), 0), covered))
+    tree = KDTree(np.concatenate([cloud.points, widest * cloud.normals], axis=1))
+    away, _ = tree.query(np.concatenate([points, widest * normals], axis=1), distance_upper_bound=widest)
+    return np.flatnonzero(away > spacings)
 
 
 def one_a_cell(
     points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], spacings: Float[np.ndarray, "n"]
 ) -> Int[np.ndarray, "k"]:
-    """The first point of each cell, in their order; arguments as for `vacant`."""
+    """The point of each cell that is nearest to the mean of its points, in their order; arguments as for `vacant`.
+
+    Neighbours then lie about a cell apart; the first points of two cells may leave a gap of nearly two.
+    """
     fine = (spacings < spacings.max(initial=0)).astype(np.int64)
-    _, first = np.unique(_cells(points, normals, spacings, fine), return_index=True)
-    return np.sort(first)
+    _, cell, count = np.unique(_cells(points, normals, spacings, fine), return_inverse=True, return_counts=True)
+    means = np.column_stack([np.bincount(cell, points[:, axis]) / count for axis in range(3)])
+    order = np.lexsort((np.linalg.norm(points - means[cell], axis=1), cell))
+    return np.sort(order[np.cumsum(count) - count])
 
 
 def extended(cloud: Cloud, more: Cloud) -> Cloud:
@@ -157,25 +168,25 @@ def initial_gaussians(
     check_fit(settings)
     cloud = complete(surface_cloud(views, settings.spacing, settings.detail_spacing))
     n = len(cloud.points)
-    tangential = np.where(cloud.spacings < settings.spacing, TANGENTIAL_DETAIL, TANGENTIAL)
-    size = np.repeat((cloud.spacings * tangential)[:, None], 3, axis=1)
+    size = np.column_stack([cloud.extents, cloud.extents.mean(axis=1)])
     points, colors, quats, opacity = cloud.points, cloud.colors, np.tile([1.0, 0.0, 0.0, 0.0], (n, 1)), settings.opacity
     match settings.init:
         case "flat":
             size[:, 2] = cloud.spacings * NORMAL
             quats = quats_from_normals(cloud.normals)
         case "isotropic":
-            pass
+            size = np.repeat(size[:, 2:], 3, axis=1)
         case "random":
             low, high = (points.min(0), points.max(0)) if n else (np.zeros(3), np.zeros(3))
             points, colors, opacity = low + rng.random((n, 3)) * (high - low), rng.random((n, 3)), RANDOM_OPACITY
+    opacities = np.where(cloud.shown | (settings.init == "random"), opacity, max(opacity, HIDDEN_OPACITY))
     sh = np.zeros((n, (settings.sh_degree + 1) ** 2, 3))
     sh[:, 0] = (colors - 0.5) / SH_C0
     gaussians = Gaussians(
         means=points.astype(np.float32),
         quats=quats.astype(np.float32),
         log_scales=np.log(size).astype(np.float32),
-        opacity_logits=np.full(n, np.log(opacity / (1 - opacity)), np.float32),
+        opacity_logits=np.log(opacities / (1 - opacities)).astype(np.float32),
         sh=sh.astype(np.float32),
     )
     return with_spare(gaussians, settings.refine_spare) if settings.refine_every > 0 else gaussians

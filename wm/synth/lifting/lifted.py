@@ -12,9 +12,7 @@ unless the image model is an ImaginingBackend: then they are kept clear of the f
 Source: WorldMesh, "Object Instantiation" and supplement, "Object Segmentation", "Object Placement".
 """
 
-import contextlib
 import dataclasses
-import pathlib
 
 import numpy as np
 
@@ -25,40 +23,30 @@ from wm.geometry.placement.placing import Placement, place_objects
 from wm.geometry.placement.upright import levelled, transformed
 from wm.geometry.placement.upright_box import box_of
 from wm.geometry.plan.site import Site, room_site
-from wm.geometry.rays.raycast import RayScene, build_ray_scene, cast
+from wm.geometry.rays.raycast import build_ray_scene
 from wm.schema import CameraSettings, ObjectsSettings
-from wm.services.faults import RefusedError, ServiceError
 from wm.synth.backends import (
-    Condition,
-    DepthBackend,
     ImageBackend,
-    ImageRequest,
-    ImageResult,
     ImaginingBackend,
     ModelSettings,
     Observation,
+    PreparedSegmentation,
     Reconstruction,
     ReconstructionBackend,
     SceneContext,
     Segment,
-    SegmentationBackend,
-    Surroundings,
 )
-from wm.synth.checked import checked_estimate, checked_image
-from wm.synth.condition import depth_grey
-from wm.synth.lifting.metric_depth import metric_depth
+from wm.synth.lifting.drawing import Drawing, draw_room, drawing_seed
+from wm.synth.lifting.drawings import drop_drawings
+from wm.synth.lifting.models import Models, make_models
 from wm.synth.lifting.observations import Instance, gather, in_room, joined
 from wm.synth.lifting.segments import tidy_segments
 from wm.synth.lifting.unlit import unlit
-from wm.synth.prompts import furnish_prompt
-from wm.synth.registry import BackendError, close_backend, make_backend, mismatch
+from wm.synth.registry import BackendError
 from wm.synth.seeds import room_number
-from wm.synth.sights import sights
-from wm.types import Camera, SceneObject, View
+from wm.types import Camera, SceneObject
 
 VERSION = "2"
-_ATTEMPTS = 4
-"""Seeds of a drawing that are tried before the image model's refusals end the run."""
 USES = ("image", "depth", "segmentation", "reconstruction")
 
 
@@ -71,27 +59,6 @@ class Settings(ObjectsSettings):
     image_height: int = number(480, 16, 16384, "Height of the images that rooms are lifted from.", unit="px")
     fov: float = number(90.0, 5, 150, "Vertical field of view of the images that rooms are lifted from.", unit="degrees")
     min_area: float = number(2e-4, 0, 1, "Share of the image below which a segment is discarded.")
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Models:
-    """The backends that lift a room."""
-
-    image: ImageBackend
-    depth: DepthBackend
-    segmentation: SegmentationBackend
-    reconstruction: ReconstructionBackend
-    folder: pathlib.Path | None = None  # the run folder
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Drawing:
-    """An image of the furnished room, its depth and its segments."""
-
-    camera: Camera
-    result: ImageResult
-    depth: np.ndarray  # [h, w] metres
-    segments: list[Segment]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -114,6 +81,8 @@ class LiftedObjects:
         self.config = config
         self._asked = asked
         self._held: tuple[SceneContext, Models] | None = None
+        self._drawn: dict[int, list[Drawing]] = {}
+        """By room, those that were drawn ahead."""
 
     def with_models(self, models: ModelSettings) -> "LiftedObjects":
         """A backend with the same settings that asks the models that these select."""
@@ -130,11 +99,9 @@ class LiftedObjects:
 
     def lift(self, context: SceneContext, room: int) -> LiftedRoom:
         """The objects of one room, and how they came about."""
-        if self._held is None or self._held[0] is not context:
-            self.close()
-            self._held = context, self.models(context)
-        models = self._held[1]
-        return lift_room(context, room, room_cameras(context, room, models.image, self.config), models, self.config)
+        models = self._held[1] if self._held is not None and self._held[0] is context else self._begin(context)
+        drawings = self._drawn.pop(room) if room in self._drawn else self._draw(context, room, models)
+        return lift_drawings(context, room, drawings, models, self.config)
 
     def models(self, context: SceneContext, image: ImageBackend | None = None) -> Models:
         """The selected models for a scene, with `image` for the image model if it is given. The caller closes them.
@@ -142,30 +109,32 @@ class LiftedObjects:
         Raises:
           BackendError: no models were selected (`with_models`), or those selected do not go together.
         """
-        asked = self._asked
-        if asked is None:
+        if self._asked is None:
             raise BackendError("lifted furniture needs models of images, depth, segmentation, reconstruction: with_models(...)")
-        if image is None:
-            faults = mismatch("depth", asked.depth, asked.image) + mismatch("segmentation", asked.segmentation, asked.image)
-            if faults:
-                raise BackendError("; ".join(faults))
-        return Models(
-            image=image if image is not None else make_backend("image", asked.image, context, asked.services),
-            depth=make_backend("depth", asked.depth, context, asked.services),
-            segmentation=make_backend("segmentation", asked.segmentation, context, asked.services),
-            reconstruction=make_backend("reconstruction", asked.reconstruction, context, asked.services),
-            folder=asked.folder,
-        )
+        return make_models(self._asked, context, image)
 
     def close(self) -> None:
         """Ends the models that it holds. Furnishing again makes new ones."""
-        held, self._held = self._held, None
-        if held is None:
-            return
-        models = held[1]
-        with contextlib.ExitStack() as done:
-            for backend in (models.image, models.depth, models.segmentation, models.reconstruction):
-                done.callback(close_backend, backend)
+        held, self._held, self._drawn = self._held, None, {}
+        if held is not None:
+            held[1].close()
+
+    def _begin(self, context: SceneContext) -> Models:
+        """The models for a scene. A segmentation that wants to be told of all images first is told."""
+        self.close()
+        models = self.models(context)
+        self._held = context, models
+        if models.folder is not None:
+            rooms = {room.id for room in context.plan.rooms}
+            drop_drawings(models.folder, lambda name: name.rpartition("/")[0] not in rooms)
+        if isinstance(models.segmentation, PreparedSegmentation):
+            drawn = {room: self._draw(context, room, models) for room in range(len(context.plan.rooms))}
+            models.segmentation.prepare([(image.result, image.where) for images in drawn.values() for image in images])
+            self._drawn = drawn
+        return models
+
+    def _draw(self, context: SceneContext, room: int, models: Models) -> list[Drawing]:
+        return draw_room(context, room, room_cameras(context, room, models.image, self.config), models)
 
 
 def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: Settings) -> list[Camera]:
@@ -181,14 +150,13 @@ def room_cameras(context: SceneContext, room: int, image: ImageBackend, config: 
 
 def lift_room(context: SceneContext, room: int, cameras: list[Camera], models: Models, config: Settings) -> LiftedRoom:
     """One room drawn from these cameras, segmented, reconstructed and placed."""
-    bare = build_ray_scene(context.structure)
-    site, number = room_site(context.plan, room, context.objects), room_number(context.plan, room)
-    drawings = []
-    for k, camera in enumerate(cameras):
-        seed = _seed(context.seed_of("furnish"), number, k)
-        drawing = draw(context, room, camera, bare, models, config, reference=drawings[0] if drawings else None, seed=seed)
-        drawings += [drawing] if drawing is not None else []
-    found = [[(segment, _observation(drawing, segment)) for segment in drawing.segments] for drawing in drawings]
+    return lift_drawings(context, room, draw_room(context, room, cameras, models), models, config)
+
+
+def lift_drawings(context: SceneContext, room: int, drawings: list[Drawing], models: Models, config: Settings) -> LiftedRoom:
+    """What these drawings of a room show, segmented, reconstructed and placed."""
+    site = room_site(context.plan, room, context.objects)
+    found = [[(one, _observation(drawing, one)) for one in _segments(drawing, models, config)] for drawing in drawings]
     instances = gather([[pair for pair in pairs if in_room(pair[1], site.polygon)] for pairs in found])
     reconstructions = _reconstructed(context, room, site, instances, models.reconstruction)
     in_world = unlit(reconstructions)
@@ -201,7 +169,7 @@ def _reconstructed(
     """Each instance in world space. Those whose reconstructions turn out to be one instance are reconstructed again together."""
 
     def made(instance: Instance, number: int) -> Reconstruction | None:
-        seed = _seed(context.seed_of("furnish"), room_number(context.plan, room), 100 + number)
+        seed = drawing_seed(context.seed_of("furnish"), room_number(context.plan, room), 100 + number)
         result = backend.reconstruct(instance.label, instance.observations, site, room, seed=seed)
         if result is None:
             return None
@@ -214,64 +182,13 @@ def _reconstructed(
     return [result for result in results if result is not None]
 
 
-def draw(
-    context: SceneContext, room: int, camera: Camera, bare: RayScene, models: Models, config: Settings,
-    *, reference: Drawing | None, seed: int,
-) -> Drawing | None:  # fmt: skip
-    """One image of the room furnished, with its segments; None if its depth cannot be made metric."""
-    gbuffer = cast(bare, camera)
-    grey = depth_grey(gbuffer, (0.0, max(float(gbuffer.depth.max()), 1e-3)))
-    condition = Condition(
-        rgb=np.repeat(grey[..., None], 3, axis=-1), known=np.zeros_like(grey), depth=gbuffer.depth, objects="none",
-        wall_texture=False,
-    )  # fmt: skip
-    plan_room = context.plan.rooms[room]
-    seen = sights(camera, room_site(context.plan, room))
-    request = ImageRequest(
-        condition=condition,
-        reference=reference.result.rgb if reference is not None else None,
-        prompt=furnish_prompt(context.theme, plan_room.name, seen, has_reference=reference is not None),
-        view=View(camera, room, "bootstrap", f"{plan_room.id}/furnish{0 if reference is None else 1}"),
-        seed=seed,
-        task="furnish",
-        theme=context.theme,
-        room=plan_room.name,
-        sights=tuple(seen),
-    )
-    result = _drawn(models.image, request)
-    estimate = checked_estimate(models.depth.estimate(result, camera=camera, seed=seed), request.view)
-    depth = metric_depth(estimate, gbuffer.depth, seed=seed) if estimate is not None else None
-    if depth is None:
-        return None
-    where = Surroundings(theme=context.theme, room=plan_room.name, view=request.view, folder=models.folder)
-    segments = tidy_segments(models.segmentation.segment(result, where=where, seed=seed), depth, min_area=config.min_area)
-    return Drawing(camera=camera, result=result, depth=depth, segments=segments)
-
-
-def _drawn(image: ImageBackend, request: ImageRequest) -> ImageResult:
-    """The image of the first attempt that the model does not refuse.
-
-    Raises:
-      ServiceError: it refuses every attempt.
-    """
-    refusals: list[str] = []
-    for attempt in range(_ATTEMPTS):
-        again = request if attempt == 0 else dataclasses.replace(request, seed=_seed(request.seed, attempt))
-        try:
-            result = image.generate(again)
-        except RefusedError as refusal:
-            refusals.append(str(refusal))
-            continue
-        return dataclasses.replace(result, rgb=checked_image(result.rgb, request.view))
-    raise ServiceError(f"view {request.view.name}: the image model refused {_ATTEMPTS} attempts; the last time: {refusals[-1]}")
+def _segments(drawing: Drawing, models: Models, config: Settings) -> list[Segment]:
+    segments = models.segmentation.segment(drawing.result, where=drawing.where, seed=drawing.seed)
+    return tidy_segments(segments, drawing.depth, min_area=config.min_area)
 
 
 def _observation(drawing: Drawing, segment: Segment) -> Observation:
     return Observation(camera=drawing.camera, rgb=drawing.result.rgb, depth=drawing.depth, mask=segment.mask)
-
-
-def _seed(*numbers: int) -> int:
-    return int(np.random.SeedSequence([*numbers, 0x11F7]).generate_state(1)[0])
 
 
 def make(config: Settings, context: SceneContext | None = None) -> LiftedObjects:

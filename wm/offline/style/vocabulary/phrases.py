@@ -50,3 +50,13 @@ lounge s t don so up down out off no not without never furnished filled lit
 """
 FILLERS: frozenset[str] = frozenset(_FILLERS.split())
 """Words that are neither used nor reported as unknown."""
+
+ROOM_NOUNS: frozenset[str] = frozenset(
+    {
+        "kitchen", "kitchenette", "bathroom", "bedroom", "corridor", "hallway", "entrance", "vestibule", "landing", "pantry",
+        "larder", "nursery", "study", "laundry", "cloakroom", "toilet", "wc", "lavatory", "cellar", "basement", "attic", "loft",
+        "balcony", "ensuite",
+    }
+)  # fmt: skip
+"""Words that name one room of a house; so does any other with "room" at its end or after it. A restaurant, a gallery or a shop is
+not one of them: such a word stands for all of the scene."""
