@@ -82,7 +82,7 @@ class Loopback:
                 for name, value in {**headers, "content-length": str(len(content))}.items():
                     self.send_header(name, value)
                 self.end_headers()
-                sent = content[: reply.cut] if reply.cut is not None else content
+                sent = b"" if self.command == "HEAD" else content[: reply.cut] if reply.cut is not None else content
                 for start in range(0, len(sent), 64) if reply.drip else [0]:
                     self.wfile.write(sent[start : start + 64] if reply.drip else sent)
                     self.wfile.flush()

@@ -4,12 +4,15 @@ They are named by what they contain and not by where they lie, so that answers c
 machine is loaded without a request to the hub. Files are safetensors; pickles are not read.
 """
 
+import contextlib
 import dataclasses
 import functools
 import hashlib
+import importlib
 import pathlib
 import re
 import sys
+from collections.abc import Iterator
 from typing import Any
 
 from wm.errors import InputError
@@ -36,8 +39,8 @@ class Weights:
 
 
 def find_weights(model: str, extra: str) -> Weights:
-    """The weights that a setting `model` names: a folder, "owner/name@commit", or "owner/name" for the newest commit that this
-    machine has or, if it has none, the newest of the hub.
+    """The weights that a setting `model` names: a folder, "owner/name@commit", or "owner/name" for the commit that this machine
+    got last or, if it has none, the newest of the hub.
 
     Args:
       model: the setting.
@@ -81,9 +84,10 @@ def load(kind: Any, weights: Weights, **options: Any) -> Any:
     """
     _quiet()
     try:
-        if weights.local:
+        if not weights.local:
+            return _from_hub(kind, weights, **options)
+        with _offline():
             return kind.from_pretrained(weights.source, local_files_only=True, **options)
-        return _from_hub(kind, weights, **options)
     except Exception as error:  # readers of files raise errors of many kinds
         hint = "" if weights.local else "; if the repository asks to accept its licence, do so on the hub and set HF_TOKEN"
         raise ServiceError(f"{weights.name} cannot be loaded as {kind.__name__}: {_first_line(error)}{hint}") from error
@@ -92,9 +96,21 @@ def load(kind: Any, weights: Weights, **options: Any) -> Any:
 def _from_hub(kind: Any, weights: Weights, **options: Any) -> Any:
     """From the hub's cache on this machine, without a request; what is not there from the hub."""
     try:
-        return kind.from_pretrained(weights.source, revision=weights.revision, local_files_only=True, **options)
+        with _offline():
+            return kind.from_pretrained(weights.source, revision=weights.revision, local_files_only=True, **options)
     except OSError:
         return kind.from_pretrained(weights.source, revision=weights.revision, **options)
+
+
+@contextlib.contextmanager
+def _offline() -> Iterator[None]:
+    """No requests to the hub: `local_files_only` does not keep its library from asking what the calling program may be."""
+    constants: Any = importlib.import_module("huggingface_hub.constants")
+    before, constants.HF_HUB_OFFLINE = constants.HF_HUB_OFFLINE, True
+    try:
+        yield
+    finally:
+        constants.HF_HUB_OFFLINE = before
 
 
 def _quiet() -> None:
@@ -110,12 +126,12 @@ def _first_line(error: Exception) -> str:
 
 
 def _newest(source: str, extra: str) -> str:
-    """The commit of the branch main that this machine has in the hub's cache; without one, the hub's."""
-    hub = optional_module("huggingface_hub", extra)
-    for name in _INDEX:
-        file = hub.try_to_load_from_cache(source, name, revision="main")
-        if isinstance(file, str):
-            return pathlib.Path(file).parent.name  # snapshots/<commit>/<name>
+    """The commit of a repository that this machine got last; if it has none, that of the branch main on the hub."""
+    hub, constants = (optional_module(name, extra) for name in ("huggingface_hub", "huggingface_hub.constants"))
+    snapshots = pathlib.Path(constants.HF_HUB_CACHE, f"models--{source.replace('/', '--')}", "snapshots")
+    here = [folder for folder in snapshots.glob("*") if any((folder / name).is_file() for name in _INDEX)]
+    if here:
+        return max(here, key=lambda folder: folder.stat().st_mtime).name
     try:
         return str(hub.HfApi().model_info(source, revision="main").sha)
     except Exception as error:  # of the hub, of its HTTP client, of the network

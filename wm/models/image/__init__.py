@@ -9,6 +9,5 @@ whatever size its model draws.
     drawing          DrawingRequest: what a model is shown and told for a view
     drawing_model    DrawingModel: a backend that asks a service for images
     pictures         images as files: what models are sent, and what they send
-    registration     views on the canvases that services offer, without shifting a pixel
-    canvas           the size at which a local model draws a view, and images scaled between the two
+    registration     views on the canvases that models offer, without shifting a pixel
 """
