@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import threading
 import time
+import weakref
 
 import numpy as np
 import pytest
@@ -188,6 +189,22 @@ def test_the_atlas_is_that_of_one_view_after_the_other():
         ours, theirs = getattr(summary.atlas, name), getattr(atlas, name)
         np.testing.assert_array_equal(ours[~shared], theirs[~shared])
         np.testing.assert_allclose(ours[shared], theirs[shared], rtol=1e-5)  # float32 running means in another order
+
+
+@pytest.mark.parametrize("kind", [OneAtATime, functools.partial(Several, 2)])
+def test_the_images_of_a_finished_room_are_not_held(kind):
+    held, most = weakref.WeakValueDictionary(), []
+
+    class Forgetful(Callbacks):
+        def store(self, view, painted, gbuffer):
+            held[view.name] = painted.rgb
+            most.append({name.partition("/")[0] for name in held})
+
+    archive = Forgetful()
+    paint(kind(), archive)
+    assert "hall" in most[-1]  # the anchors, which every room looks at
+    assert len(most[-1]) <= 2
+    assert len(most) == len(VIEWS)
 
 
 def test_a_failure_ends_the_other_rooms_and_is_raised():

@@ -22,7 +22,7 @@ from wm.synth.attempt import PaintedView
 from wm.synth.backends import ConcurrentBackend, DepthBackend, ImageBackend
 from wm.synth.order import RoomSteps, SceneOrder, scene_order
 from wm.synth.prompts import ViewPrompt
-from wm.synth.room_painting import PaintedSteps, PaintSettings, RoomPainter, Scaffold
+from wm.synth.room_painting import PaintSettings, RoomPainter, Scaffold
 from wm.synth.side_by_side import DepthInTurn, Turns, side_by_side
 from wm.types import Atlas, GBuffer, View
 
@@ -109,16 +109,16 @@ def _paint(painter: RoomPainter, order: SceneOrder, atlas: Atlas, at_once: int) 
     anchors = painter.paint(order.anchors.steps, atlas, {}, order.after(order.anchors))
     texture = SceneTexture(atlas, order.anchors.room)
 
-    def paint_room(part: RoomSteps) -> PaintedSteps:
+    def paint_room(part: RoomSteps) -> list[int]:
         own = texture.part(part.room)
         following = order.after(part) if at_once == 1 else ()  # rooms side by side do not know which view comes next
         painted = painter.paint(part.steps, own, anchors.images, following)
         texture.finish(part.room, own)
-        return painted
+        return painted.attempts  # and not the images, which no other room looks at
 
     rooms = side_by_side(paint_room, order.rooms, painter.turns, at_once=at_once)
     texture.join()
-    return [count for painted in (anchors, *rooms) for count in painted.attempts]
+    return [count for attempts in (anchors.attempts, *rooms) for count in attempts]
 
 
 def scene_depth_range(views: Sequence[View], scene: RayScene) -> tuple[float, float]:
