@@ -8,7 +8,7 @@ import pytest
 from tests.synth.recording import recorded, with_recording
 from wm.offline.image.violations import KINDS
 from wm.run import load_config, options
-from wm.schema import RunConfig
+from wm.schema import RunConfig, VerifySettings
 from wm.synth.registry import GROUPS, backend_module, mismatches, unasked
 from wm.validate import ConfigError, validate_config
 

@@ -151,6 +151,71 @@ def test_what_a_killed_process_paid_and_could_not_write_down_is_written_down_lat
     assert other.ledger.spent() == Spent()  # that run has not paid
 
 
+def test_what_is_written_down_later_counts_in_the_budget(tmp_path):
+    for seed in range(2):
+        services(tmp_path).ask(request(seed), Sender())
+    (tmp_path / REQUESTS).unlink()  # as if killed before both were written down
+    resumed, send = services(tmp_path, budget=Budget(requests=2)), Sender()
+    for seed in range(2):
+        resumed.ask(request(seed), send)
+    with pytest.raises(BudgetError):
+        resumed.ask(request(2), send)
+    assert send.sent == 0
+
+
+def test_a_request_that_many_threads_find_is_written_down_once(tmp_path):
+    """Whether it was kept by a killed process, or is being kept by another thread now."""
+    services(tmp_path).ask(request(), Sender())
+    (tmp_path / REQUESTS).unlink()
+    resumed, together = services(tmp_path), threading.Barrier(8, timeout=30)
+    held = resumed.ledger.holds
+    resumed.ledger.holds = lambda key: (held(key), threading.Event().wait(0.01))[0]  # the others come in between
+
+    def ask() -> None:
+        together.wait()
+        resumed.ask(request(), Sender())
+
+    threads = [threading.Thread(target=ask) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert resumed.ledger.spent() == Spent(1, 0.25)
+
+
+def test_who_finds_an_answer_before_it_is_written_down_does_not_write_it_down_too(tmp_path):
+    ours = services(tmp_path)
+    put = ours.store.put
+
+    def kept_and_found(*given) -> None:
+        put(*given)
+        ours.ask(request(), Sender())  # what another thread does
+
+    ours.store.put = kept_and_found
+    ours.ask(request(), Sender())
+    assert ours.ledger.spent() == Spent(1, 0.25)
+
+
+def test_a_paid_answer_that_cannot_be_kept_is_counted_all_the_same(tmp_path):
+    class Full(Sender):
+        def __call__(self):
+            (tmp_path / "answers" / request().key[:2] / f"{request().key}.zip").mkdir()  # stands for a disk that fills up
+            return super().__call__()
+
+    ours = services(tmp_path, budget=Budget(requests=1))
+    with pytest.raises(ServiceError, match="cannot be kept"):
+        ours.ask(request(), Full())
+    assert Ledger(tmp_path / REQUESTS).spent() == Spent(1, 0.25)
+    with pytest.raises(BudgetError):
+        ours.ask(request(1), Sender())
+
+
+def test_a_ledger_that_cannot_be_read_is_not_one_that_spent_nothing(tmp_path):
+    (tmp_path / REQUESTS).mkdir()
+    with pytest.raises(OSError):
+        Ledger(tmp_path / REQUESTS)
+
+
 def test_costs_are_announced_once_a_stage_before_anything_is_sent(tmp_path):
     events, send = [], Sender()
     ours = services(tmp_path)

@@ -1,5 +1,6 @@
 """The store of answers: what is kept comes back, what is damaged is as if it were not there, one asks at a time."""
 
+import shutil
 import threading
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from wm.services.faults import ServiceError
 from wm.services.records import ServiceAnswer, ServiceRequest
 from wm.services.store import AnswerStore
 
@@ -51,13 +53,52 @@ def test_every_damage_is_as_if_the_answer_were_not_there(tmp_path):
     store, key = AnswerStore(tmp_path), request().key
     assert store.get(key) is None
     store.put(request(), ServiceAnswer(files={"text.txt": b"some words of an answer"}), {})
-    whole = store.path(key).read_bytes()
+    kept, whole = store.get(key), store.path(key).read_bytes()
+    assert kept is not None
     for cut in range(0, len(whole), 7):
         store.path(key).write_bytes(whole[:cut])
         assert store.get(key) is None
-    flipped = whole.replace(b"some words", b"other word")
-    store.path(key).write_bytes(flipped)
-    assert store.get(key) is None
+    for place in range(len(whole)):
+        for flip in (8, 255):
+            store.path(key).write_bytes(whole[:place] + bytes([whole[place] ^ flip]) + whole[place + 1 :])
+            found = store.get(key)  # the time of a member, for one, changes nothing
+            assert found is None or (dict(found[0].files), found[0].record) == (dict(kept[0].files), kept[0].record)
+
+
+def test_an_answer_that_cannot_be_read_is_not_one_that_is_not_there(tmp_path):
+    """It was paid: to ask again because of a permission, or of too many open files, would be to pay again."""
+    store, key = AnswerStore(tmp_path), request().key
+    store.path(key).mkdir(parents=True)  # stands for them, since a superuser may read everything
+    with pytest.raises(ServiceError, match=rf"{key}.zip: answers cannot be kept or read here"):
+        store.get(key)
+
+
+def test_a_file_in_place_of_the_folder_is_an_error_that_names_the_setting(tmp_path):
+    (tmp_path / "answers").write_text("")
+    with pytest.raises(ServiceError, match=r"answers\.folder=FOLDER"):
+        AnswerStore(tmp_path / "answers").get(request().key)
+    with pytest.raises(ServiceError, match=r"answers\.folder=FOLDER"), AnswerStore(tmp_path / "answers").claim(request().key):
+        pytest.fail("a claim where no answer can be kept")
+
+
+def test_nothing_is_claimed_where_the_disk_is_nearly_full(tmp_path, monkeypatch):
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=2**20))
+    with pytest.raises(ServiceError, match="No space left on device"), AnswerStore(tmp_path).claim(request().key):
+        pytest.fail("a request would be sent whose answer may have no room")
+
+
+def test_where_files_cannot_be_locked_threads_still_exclude_each_other(tmp_path, monkeypatch):
+    monkeypatch.setattr("wm.services.store.fcntl", None)  # as on Windows
+    store = AnswerStore(tmp_path)
+    with store.claim("ab12"):
+        second = threading.Thread(target=lambda: store.claim("ab12").__enter__(), daemon=True)
+        second.start()
+        second.join(0.05)
+        assert second.is_alive()
+        assert not list(tmp_path.rglob("*.lock"))
+    second.join(30)
+    assert not second.is_alive()
 
 
 @pytest.mark.parametrize("stores", [1, 2])

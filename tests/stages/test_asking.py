@@ -18,12 +18,13 @@ from wm.bounds import setting
 from wm.cli.composition import load_config
 from wm.codecs import decode_png, encode_png
 from wm.color import to_bytes
+from wm.errors import ArtifactError
 from wm.schema import BackendSettings, BudgetConfig, PricesConfig
 from wm.services.faults import BudgetError, ReplayError
 from wm.services.prices import Price
 from wm.services.records import ServiceAnswer, ServiceRequest
 from wm.services.services import Services
-from wm.stages.asking import announcement, expected
+from wm.stages.asking import announcement, expected, open_services
 from wm.synth.backends import ImageResult
 
 
@@ -179,3 +180,14 @@ def test_an_offline_run_asks_nothing_and_leaves_nothing(tmp_path):
     pipeline.run(config, tmp_path / "run")
     assert not (tmp_path / "answers").exists() and not (tmp_path / "run/requests.jsonl").exists()
     assert not list(expected(config, Services(stage="plan")))
+
+
+def test_what_is_paid_is_not_written_through_a_link(tmp_path):
+    """The file grows and is not replaced: a folder from elsewhere must not choose which file it is."""
+    run, outside = tmp_path / "run", tmp_path / "outside.txt"
+    run.mkdir()
+    outside.write_text("mine\n")
+    (run / "requests.jsonl").symlink_to(outside)
+    with pytest.raises(ArtifactError, match="link"):
+        open_services(load_config(["+scene=gothic"]), run)
+    assert outside.read_text() == "mine\n"

@@ -192,6 +192,22 @@ def test_the_atlas_is_that_of_one_view_after_the_other():
         np.testing.assert_allclose(ours[shared], theirs[shared], rtol=1e-5)  # float32 running means in another order
 
 
+@pytest.mark.parametrize("kind", [OneAtATime, functools.partial(Several, 2)])
+def test_the_images_of_a_finished_room_are_not_held(kind):
+    held, most = weakref.WeakValueDictionary(), []
+
+    class Forgetful(Callbacks):
+        def store(self, view, painted, gbuffer):
+            held[view.name] = painted.rgb
+            most.append({name.partition("/")[0] for name in held})
+
+    archive = Forgetful()
+    paint(kind(), archive)
+    assert "hall" in most[-1]  # the anchors, which every room looks at
+    assert len(most[-1]) <= 2
+    assert len(most) == len(VIEWS)
+
+
 def test_a_failure_ends_the_other_rooms_and_is_raised():
     class Broken(Several):
         def generate(self, request):

@@ -6,7 +6,10 @@ import threading
 
 import pytest
 
-from wm.synth.side_by_side import RoomStoppedError, Turns, side_by_side
+from wm.services.faults import TransientError
+from wm.services.retries import RetryPolicy, with_retries
+from wm.synth.backends import ImageRequest
+from wm.synth.side_by_side import ImagesUntilStopped, RoomStoppedError, Turns, side_by_side
 
 
 @pytest.mark.parametrize("at_once", [1, 2, 5, 50])
@@ -67,6 +70,38 @@ def test_a_failure_in_a_turn_is_raised():
 
     with pytest.raises(ValueError, match="room "):
         side_by_side(work, range(4), turns, at_once=4)
+
+
+def test_a_room_that_waits_to_send_again_ends_when_another_fails():
+    """Without it a limit that one room reaches is said a quarter of an hour later, and requests are sent for nothing."""
+    turns, waits, sent = Turns(), threading.Event(), []
+
+    class Overloaded:
+        def generate(self, request):
+            return with_retries(self.send, RetryPolicy(first=60.0), "lab", waiting=lambda line: waits.set())
+
+        def send(self):
+            sent.append(1)
+            raise TransientError("503")
+
+    def work(k):
+        if k == 0:
+            waits.wait(30)
+            raise OSError("room 0")
+        ImagesUntilStopped(Overloaded(), turns).generate(object.__new__(ImageRequest))  # nobody reads it
+
+    rooms = threading.Thread(target=lambda: failed.append(outcome(work, turns)), daemon=True)
+    failed = []
+    rooms.start()
+    rooms.join(20)  # its first wait alone is 30 s or more
+    assert failed == ["room 0"] and len(sent) == 1
+
+
+def outcome(work, turns):
+    try:
+        side_by_side(work, range(2), turns, at_once=2)
+    except OSError as error:
+        return str(error)
 
 
 def test_ctrl_c_waits_for_nobody_and_leaves_no_turn():

@@ -24,9 +24,13 @@ def secret(variable: str) -> str:
     """The value of an environment variable.
 
     Raises:
-      MissingKeyError: it is not set, or empty.
+      MissingKeyError: it is not set, or empty, or has characters that no key has. Libraries would show it in their errors.
     """
     value = os.environ.get(variable, "").strip()
     if not value:
         raise MissingKeyError(f"the environment variable {variable} is not set; it holds the key of the service")
+    if not (value.isascii() and value.isprintable()) or " " in value:
+        raise MissingKeyError(
+            f"the environment variable {variable} holds no key: it has a line break, a space or a character that no key has"
+        )
     return value

@@ -44,6 +44,12 @@ class Budget:
                 self._usd += (held.settled or 0.0) - held.usd
                 self._requests -= held.settled is None
 
+    def count(self, usd: float | None) -> None:
+        """Counts a request that an earlier part of the run has paid; None if its price is not known."""
+        with self._lock:
+            self._usd += usd or 0.0
+            self._requests += 1
+
     def _check(self, usd: float) -> None:
         goes_on = "what was answered is kept; a larger limit goes on there"
         if self.requests is not None and self._requests + 1 > self.requests:

@@ -30,6 +30,9 @@ class Ledger:
 
     Args:
       file: where the lines are; None keeps them in memory only.
+
+    Raises:
+      OSError: the file is there and cannot be read.
     """
 
     def __init__(self, file: pathlib.Path | None = None):
@@ -80,7 +83,7 @@ def _ends_a_line(name: str) -> bool:
 def _read(file: pathlib.Path) -> list[dict[str, Any]]:
     try:
         lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
+    except FileNotFoundError:
         return []
     return [row for line in lines if (row := _row(line)) is not None]
 

@@ -3,9 +3,11 @@
     wait(n) = max(after, min(longest, first * 2^n) * u),  u uniform in [1/2, 1]
 
 after the n-th failure (n = 0, 1, ...), where `after` is what the service asked for (Retry-After), if anything. Jitter keeps
-requests that failed together from coming back together.
+requests that failed together from coming back together. Work that may be stopped, as by the failure of another room, says by
+`PAUSE` how its thread waits: nothing is then waited for, or sent again, for work that has ended.
 """
 
+import contextvars
 import dataclasses
 import random
 import time
@@ -15,6 +17,9 @@ from typing import TypeVar
 from wm.services.faults import ServiceError, TransientError
 
 T = TypeVar("T")
+
+PAUSE: contextvars.ContextVar[Callable[[float], None]] = contextvars.ContextVar("PAUSE", default=time.sleep)
+"""How this thread waits so many seconds: a function that raises as soon as its work is stopped."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -29,7 +34,7 @@ def with_retries(
     policy: RetryPolicy,
     what: str,
     *,
-    sleep: Callable[[float], None] = time.sleep,
+    sleep: Callable[[float], None] | None = None,
     clock: Callable[[], float] = time.monotonic,
     draw: Callable[[], float] = random.random,
     waiting: Callable[[str], None] = lambda line: None,
@@ -40,12 +45,13 @@ def with_retries(
       send: sends the request once.
       policy: how long to wait between tries, and in all.
       what: what is asked, for messages.
-      sleep, clock, draw: waiting, the time in seconds, and uniform numbers in [0, 1).
+      sleep, clock, draw: waiting (None: `PAUSE`), the time in seconds, and uniform numbers in [0, 1).
       waiting: told in a line why and how long it waits.
 
     Raises:
       ServiceError: the patience is over; the message has the last fault. A service that asks for a wait beyond the patience is
         not waited for.
+      Exception: what `PAUSE` raises where the work is stopped.
     """
     started, tries = clock(), 0
     while True:
@@ -62,4 +68,4 @@ def with_retries(
                     "and the same command goes on there"
                 ) from fault
             waiting(f"{what}: {fault}; next try in {wait:.0f} s")
-        sleep(wait)
+        (sleep or PAUSE.get())(wait)

@@ -42,6 +42,7 @@ class Services:
     views: int | None = None  # views that are still to be painted, once that is known
     announce: Callable[[], None] = lambda: None  # called before the first paid request of each stage is sent
     _announced: set[str] = dataclasses.field(default_factory=set)
+    _unwritten: set[str] = dataclasses.field(default_factory=set)  # answers being kept now, whose cost is not written down yet
     _guard: threading.Lock = dataclasses.field(default_factory=threading.Lock)
 
     def ask(self, request: ServiceRequest, send: Callable[[], ServiceAnswer]) -> ServiceAnswer:
@@ -56,8 +57,8 @@ class Services:
           RefusedError: the model gave nothing that can be used, now or when it was asked before.
           ReplayError: nothing may be sent, and there is no answer.
           BudgetError: the request would exceed the budget.
-          ServiceError: there is no answer, and waiting does not help.
-          OSError: the answer cannot be kept.
+          ServiceError: there is no answer, and waiting does not help; or answers cannot be kept.
+          OSError: what it cost cannot be written down.
         """
         answer = self._kept(request)
         if answer is None:
@@ -86,8 +87,11 @@ class Services:
         if kept is None:
             return None
         answer, noted = kept
-        if noted.get("run") == self.run and not self.ledger.holds(request.key):
-            self._write_down(request, noted.get("usd"), float(noted.get("seconds", 0.0)))  # killed before it could
+        with self._guard:
+            if noted.get("run") == self.run and request.key not in self._unwritten and not self.ledger.holds(request.key):
+                self._write_down(request, noted.get("usd"), float(noted.get("seconds", 0.0)))  # killed before it could
+                if request.paid:
+                    self.budget.count(noted.get("usd"))
         return answer
 
     def _asked(self, request: ServiceRequest, send: Callable[[], ServiceAnswer]) -> ServiceAnswer:
@@ -104,12 +108,20 @@ class Services:
             answer = with_retries(send, self.retries, f"{request.backend} ({request.model})", waiting=self.say)
             seconds = round(time.monotonic() - started, 3)
             usd = self.prices.cost(request.model, answer.usage) if request.paid else 0.0
-            if self.store is not None and self.replay != OFF:
-                self.store.put(request, answer, {"usd": usd, "seconds": seconds, "run": self.run})
             if held is not None:
                 held.settle(usd)
-            self._write_down(request, usd, seconds)
+            self._keep(request, answer, usd, seconds)
         return answer
+
+    def _keep(self, request: ServiceRequest, answer: ServiceAnswer, usd: float | None, seconds: float) -> None:
+        """Keeps an answer and writes down what it cost, also where it cannot be kept: it was paid."""
+        self._unwritten.add(request.key)
+        try:
+            if self.store is not None and self.replay != OFF:
+                self.store.put(request, answer, {"usd": usd, "seconds": seconds, "run": self.run})
+        finally:
+            self._write_down(request, usd, seconds)
+            self._unwritten.discard(request.key)
 
     def _announce_once(self) -> None:
         with self._guard:  # held while it is said: no request overtakes it

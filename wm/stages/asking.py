@@ -56,8 +56,13 @@ class Expected:
 
 
 def open_services(config: RunConfig, folder: Path) -> Services:
-    """The services of a run: its answers, its prices, and its budget less what its earlier parts have spent."""
-    ledger = Ledger(confined(folder, REQUESTS, replaced=True))
+    """The services of a run: its answers, its prices, and its budget less what its earlier parts have spent.
+
+    Raises:
+      ArtifactError: a link leads out of the folder.
+      OSError: what the earlier parts have spent cannot be read.
+    """
+    ledger = Ledger(confined(folder, REQUESTS))
     spent = ledger.spent()
     services = Services(
         store=AnswerStore(Path(config.answers.folder)),

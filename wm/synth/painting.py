@@ -114,7 +114,7 @@ def _paint(painter: RoomPainter, order: SceneOrder, atlas: Atlas, at_once: int) 
         following = order.after(part) if at_once == 1 else ()  # rooms side by side do not know which view comes next
         painted = painter.paint(part.steps, own, anchors.images, following)
         texture.finish(part.room, own)
-        return painted.attempts
+        return painted.attempts  # and not the images, which no other room looks at
 
     rooms = side_by_side(paint_room, order.rooms, painter.turns, at_once=at_once)
     texture.join()

@@ -12,6 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from wm.services.retries import PAUSE
 from wm.synth.backends import DepthBackend, ImageBackend, ImageRequest, ImageResult
 from wm.types import Camera
 
@@ -28,7 +29,7 @@ class Turns:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._stopped = False
+        self._stopped = threading.Event()
 
     @contextlib.contextmanager
     def turn(self) -> Iterator[None]:
@@ -39,20 +40,24 @@ class Turns:
 
     def check(self) -> None:
         """Raises: RoomStoppedError after `stop`."""
-        if self._stopped:
+        self.pause(0.0)
+
+    def pause(self, seconds: float) -> None:
+        """Waits. Raises: RoomStoppedError after `stop`, as soon as it is called."""
+        if self._stopped.wait(seconds):
             raise RoomStoppedError
 
     def stop(self) -> None:
         """No turn begins any more. A turn that is under way is waited for."""
         with self._lock:
-            self._stopped = True
+            self._stopped.set()
 
 
 def side_by_side(work: Callable[[Item], Result], items: Sequence[Item], turns: Turns, *, at_once: int) -> list[Result]:
     """`work(item)` for every item, in the order of the items, with at most `at_once` under way.
 
     With one at a time, everything happens in the calling thread. After a failure the others are waited for: they stop at their
-    next turn, when the answer that they wait for is there.
+    next turn, when the answer that they wait for is there, and at once while they wait to send a request again.
 
     Raises:
       Exception: what `work` raised first.
@@ -103,7 +108,11 @@ class ImagesUntilStopped:
     def generate(self, request: ImageRequest) -> ImageResult:
         """As the backend. Raises: RoomStoppedError."""
         self.turns.check()
-        return self.backend.generate(request)
+        before = PAUSE.set(self.turns.pause)
+        try:
+            return self.backend.generate(request)
+        finally:
+            PAUSE.reset(before)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
