@@ -37,6 +37,7 @@ def test_what_a_service_says_is_shortened():
     "headers, wait",
     [
         ({}, None),
+        ({"Retry-After": "Mon, 01 Jan 2026 00:00:00 +99999999999999"}, None),
         ({"retry-after": "2.5"}, 2.5),
         ({"Retry-After": email.utils.formatdate(1090, usegmt=True)}, 90.0),
         ({"Retry-After": email.utils.formatdate(10, usegmt=True)}, None),

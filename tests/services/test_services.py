@@ -131,6 +131,20 @@ def test_a_limit_of_money_wants_a_price(tmp_path):
     assert ours.ask(request(model="unheard-of", paid=False), Sender()).files == ONE.files  # what is free needs none
 
 
+@pytest.mark.parametrize("usage", [{"images": 1.0}, {"images": 1.0, "image_tokens": 0.0}])
+def test_an_answer_that_tells_no_tokens_costs_what_was_expected(tmp_path, usage):
+    """Services that speak another's dialect leave them out; at 0 USD a request no limit would ever be reached."""
+    prices = Prices(models={"m": Price(image_tokens=100.0, usage={"image_tokens": 2000.0})})
+    ours = services(tmp_path, budget=Budget(usd=0.5))
+    ours.prices = prices
+    for seed in range(2):
+        ours.ask(request(seed), Sender(ServiceAnswer(files=ONE.files, usage=usage)))
+    assert ours.ledger.spent() == Spent(2, 0.4)
+    with pytest.raises(BudgetError):
+        ours.ask(request(2), Sender())
+    services(tmp_path).ask(request(3), Sender(ServiceAnswer(files=ONE.files, usage={"image_tokens": 1})))
+
+
 def test_a_local_model_is_kept_and_costs_nothing(tmp_path):
     send, ours = Sender(), services(tmp_path, budget=Budget(requests=0))
     ours.ask(request(paid=False), send)

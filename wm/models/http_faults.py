@@ -99,7 +99,7 @@ def retry_after(headers: Mapping[str, str], now: float | None = None) -> float |
         else:
             date = email.utils.parsedate_to_datetime(lower["retry-after"])
             wait = date.timestamp() - (time.time() if now is None else now)
-    except (KeyError, ValueError, TypeError):
+    except (KeyError, ValueError, TypeError, OverflowError):
         return None
     return wait if 0 < wait < float("inf") else None
 

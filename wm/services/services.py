@@ -107,11 +107,18 @@ class Services:
             started = time.monotonic()
             answer = with_retries(send, self.retries, f"{request.backend} ({request.model})", waiting=self.say)
             seconds = round(time.monotonic() - started, 3)
-            usd = self.prices.cost(request.model, answer.usage) if request.paid else 0.0
+            usd = self._cost(request, answer) if request.paid else 0.0
             if held is not None:
                 held.settle(usd)
             self._keep(request, answer, usd, seconds)
         return answer
+
+    def _cost(self, request: ServiceRequest, answer: ServiceAnswer) -> float | None:
+        """USD of an answer. Where a service does not say how many tokens it used, what was expected: a budget must not see 0."""
+        if answer.refusal or any(answer.usage.get(name) for name in ("input_tokens", "output_tokens", "image_tokens")):
+            return self.prices.cost(request.model, answer.usage)
+        told = {name: value for name, value in answer.usage.items() if value}
+        return self.prices.expected(request.model, {**request.expected, **told})
 
     def _keep(self, request: ServiceRequest, answer: ServiceAnswer, usd: float | None, seconds: float) -> None:
         """Keeps an answer and writes down what it cost, also where it cannot be kept: it was paid."""
