@@ -21,9 +21,6 @@ class Spent:
     usd: float = 0.0
     unpriced: int = 0  # paid requests whose price is not known, which `usd` leaves out
 
-    def __add__(self, other: "Spent") -> "Spent":
-        return Spent(self.requests + other.requests, self.usd + other.usd, self.unpriced + other.unpriced)
-
 
 class Ledger:
     """The requests of a run, those of its earlier parts included. Several threads may add to it.

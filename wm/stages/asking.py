@@ -22,7 +22,7 @@ from wm.services.retries import RetryPolicy
 from wm.services.services import Services
 from wm.services.store import AnswerStore
 from wm.synth.backends import ServedBackend
-from wm.synth.registry import backend_module, make_backend, missing_secrets
+from wm.synth.registry import backend_module, is_served, make_backend, missing_secrets
 
 BOOTSTRAP_VIEWS = 2
 """Views of a room beside those that the configuration counts (wm.geometry.cameras.views)."""
@@ -150,7 +150,7 @@ def paid(services: Services) -> str:
 
 
 def _quote(group: str, settings: BackendSettings, services: Services) -> Quote | None:
-    if not getattr(backend_module(settings.backend), "SERVED", False):
+    if not is_served(settings):
         return None
     backend = make_backend(group, settings, None, services)
     return backend.quote() if isinstance(backend, ServedBackend) else None

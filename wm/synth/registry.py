@@ -124,6 +124,11 @@ def backend_key(settings: BackendSettings, folder: pathlib.Path | None = None) -
     return settings, module.VERSION, *reads, *_files_read(settings)
 
 
+def is_served(settings: BackendSettings) -> bool:
+    """Whether a backend asks a model through the run's services."""
+    return getattr(backend_module(settings.backend), "SERVED", False)
+
+
 def missing_secrets(settings: BackendSettings) -> list[str]:
     """Names of the environment variables that a backend's requests need and that are not set."""
     module = backend_module(settings.backend)
@@ -181,17 +186,16 @@ def mismatch(group: str, settings: BackendSettings, image: BackendSettings) -> l
 
 def unasked(config: RunConfig) -> list[str]:
     """A line for each group of models that lift furniture of which one was chosen that the run will not ask."""
-    asked = _furnishing(config) | ({"depth"} if config.verify.enabled else set())
+    asked = _asked(config)
     idle = [group for group in ("depth", "segmentation", "reconstruction") if group not in asked]
-    served = [group for group in idle if getattr(backend_module(getattr(config, group).backend), "SERVED", False)]
+    served = [group for group in idle if is_served(getattr(config, group))]
     return [f"the {group} model that is chosen is not asked in this run; objects=lifted asks it" for group in served]
 
 
 def mismatches(config: RunConfig) -> list[str]:
     """Error messages for the backends, among those that the run will use, that do not suit the selected image backend."""
-    furnishing = _furnishing(config)
-    asked = furnishing | ({"depth"} if config.verify.enabled else set())
-    without = {"depth": "; verify.enabled=false paints without one"} if "depth" not in furnishing else {}
+    asked = _asked(config)
+    without = {"depth": "; verify.enabled=false paints without one"} if "depth" not in _furnishing(config) else {}
     return [
         fault + without.get(group, "")
         for group in GROUPS
@@ -208,6 +212,11 @@ def misplaced(config: RunConfig) -> Iterator[str]:
             _own(settings, backend_module(settings.backend))
         except BackendError as error:
             yield f"{group}: {error}"
+
+
+def _asked(config: RunConfig) -> set[str]:
+    """The groups of backends beside language and image that a run asks: those of the furnish stage, and depth to verify by."""
+    return _furnishing(config) | ({"depth"} if config.verify.enabled else set())
 
 
 def _furnishing(config: RunConfig) -> set[str]:
