@@ -8,6 +8,13 @@ Importing `wm` itself loads none of its modules. Each imports only those below i
     cli           between typed words and a checked configuration: composition, help, completion
     annotation    the page on which a person marks the furniture in a run's drawings
     pipeline      run: the stages of a run in order
+    check         proves an exported run with the tools of those who use it
+    view          the page on which a finished run is walked through
+    compare       scenes of other methods beside ours, on the same trajectories
+    study         a study in which people rate and compare videos
+    capture       posed images, depth, normals and labels along a trajectory
+    export        what other programs take of a finished run, one module a target
+    finished      a finished run read back as records
     stages        one stage a module, each with its entry in the run folder
     report        report.html, figures, the video, the table that compares runs
     meter         time and peak memory of each stage

@@ -161,6 +161,11 @@ def transforms_json(views: Sequence[View], rooms: Sequence[str]) -> dict[str, An
     }
 
 
+def room_names(cameras: bytes) -> list[str]:
+    """The id of the room of each frame of a transforms.json that `transforms_json` or `heldout_json` has made."""
+    return [str(frame["room"]) for frame in json.loads(cameras)["frames"]]
+
+
 def _intrinsics(camera: Camera) -> dict[str, Any]:
     focal, principal = np.asarray(camera.focal, float), np.asarray(camera.principal, float)
     return {

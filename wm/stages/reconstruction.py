@@ -51,7 +51,7 @@ def reconstruct(run: RunContext, scene: Scene, painted: Painted, heldout: HeldOu
         if not run.folder.has("reconstruct", key):
             _fit(run, scene, painted, heldout, capacity, key)
         name_points(run)
-        rooms = _split(codecs.decode_arrays((run.folder.path / BY_ROOM).read_bytes()))
+        rooms = split_rooms(codecs.decode_arrays((run.folder.path / BY_ROOM).read_bytes()))
         return ReconstructedScene(
             rooms=rooms,
             renderer=SceneRenderer(rooms, config.raster, capacity=capacity),
@@ -166,14 +166,19 @@ def points_of(rooms: Sequence[Gaussians]) -> tuple[np.ndarray, np.ndarray]:
 def visible_gaussians(rooms: Sequence[Gaussians]) -> Gaussians:
     """All rooms in order, without the gaussians that refinement has left with an opacity that no program draws."""
     merged = jax.tree.map(lambda *leaves: np.concatenate(leaves), *rooms)
-    kept = merged.opacity_logits > VISIBLE_LOGIT
-    return jax.tree.map(lambda leaf: leaf[kept], merged)
+    return jax.tree.map(lambda leaf: leaf[is_visible(merged)], merged)
+
+
+def is_visible(gaussians: Gaussians) -> np.ndarray:
+    """[n] bool: which gaussians some program draws."""
+    return np.asarray(gaussians.opacity_logits) > VISIBLE_LOGIT
 
 
 def _join(rooms: Sequence[Gaussians]) -> dict[str, np.ndarray]:
     return {f"{k:05d}.{leaf}": getattr(room, leaf) for k, room in enumerate(rooms) for leaf in GAUSSIAN_FIELDS}
 
 
-def _split(arrays: Mapping[str, np.ndarray]) -> tuple[Gaussians, ...]:
+def split_rooms(arrays: Mapping[str, np.ndarray]) -> tuple[Gaussians, ...]:
+    """The gaussians of each room, from the arrays of BY_ROOM."""
     rooms = sorted({name.split(".")[0] for name in arrays})
     return tuple(Gaussians(**{leaf: arrays[f"{room}.{leaf}"] for leaf in GAUSSIAN_FIELDS}) for room in rooms)
