@@ -15,8 +15,9 @@ from wm.splat import load_ply
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    told = ["+scene=scandinavian", "preset=draft", "scene.rooms=[living room,bathroom]", "cameras.width=64",
-            "cameras.height=36", "cameras.perimeter=4", "cameras.overhead=1", "cameras.heldout_per_room=1", "fit.steps=4", "report.enabled=false"]  # fmt: skip
+    small = {"cameras.width": 64, "cameras.height": 36, "cameras.perimeter": 4, "cameras.overhead": 1, "fit.steps": 4}
+    told = ["+scene=scandinavian", "preset=draft", "scene.rooms=[living room,bathroom]", "report.enabled=false"]
+    told += [f"{name}={value}" for name, value in small.items()]
     path = tmp_path_factory.mktemp("finished") / "run"
     run(load_config([*told, f"output={path}"]), path)
     return path
