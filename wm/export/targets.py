@@ -10,12 +10,13 @@ import dataclasses
 import importlib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Protocol, cast
+from typing import Protocol, cast, runtime_checkable
 
 from wm.export.records import Check
 from wm.finished import FinishedRun
 
 
+@runtime_checkable
 class TargetModule(Protocol):
     """What a target's module must have."""
 
@@ -25,7 +26,7 @@ class TargetModule(Protocol):
 
 
 @dataclasses.dataclass(frozen=True)
-class Target:
+class ExportTarget:
     """What a target writes, and what it needs for that."""
 
     module: str
@@ -36,4 +37,4 @@ class Target:
         return cast(TargetModule, importlib.import_module(self.module))
 
 
-TARGETS: dict[str, Target] = {}
+TARGETS: dict[str, ExportTarget] = {}
