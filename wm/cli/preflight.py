@@ -96,6 +96,8 @@ def _planned(composed: Any, *folder_keys: str) -> PlannedRun:
         config = freeze(task)
         if config.plan.file is not None:
             importlib.import_module("wm.geometry").load_plan(Path(config.plan.file))
+        if config.export:
+            importlib.import_module("wm.export.targets").check_targets(config.export)
         folder = Path.cwd().joinpath(*(str(OmegaConf.select(composed, key)) for key in folder_keys))
     missing = tuple(level for level in (folder, *folder.parents) if not level.exists())
     return PlannedRun(config=config, folder=folder, missing=missing)

@@ -50,14 +50,27 @@ def navigability(plan: FloorPlan, objects: Sequence[SceneObject], settings: Navi
     lower than `obstacle_height`; what is lower than STEP is walked over.
     """
     floor = walkable_floor(plan)
-    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
-    area = floor.difference(outlines(standing, STEP, settings.obstacle_height))
+    area = floor.difference(_obstacles(objects, settings))
     low, high = np.array(floor.bounds[:2]), np.array(floor.bounds[2:])
     columns, rows = (int(n) for n in np.ceil((high - low) / settings.cell))
     free = cells_inside(area, low, settings.cell, (rows, columns))
     component, share = _components(free)
-    share_body = _largest_share(area.buffer(_FIT - settings.body_radius))
+    share_body = _largest_share(_fitting(area, settings))
     return Navigability(share=share, share_body=share_body, free=free, component=component, origin=low, cell=settings.cell)
+
+
+def body_area(plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS) -> BaseGeometry:
+    """Where the centre of the body can be: what `Navigability.share_body` is the share of."""
+    return _fitting(walkable_floor(plan).difference(_obstacles(objects, settings)), settings)
+
+
+def _obstacles(objects: Sequence[SceneObject], settings: NavigationSettings) -> BaseGeometry:
+    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
+    return outlines(standing, STEP, settings.obstacle_height)
+
+
+def _fitting(area: BaseGeometry, settings: NavigationSettings) -> BaseGeometry:
+    return area.buffer(_FIT - settings.body_radius)
 
 
 def _largest_share(area: BaseGeometry) -> float:
