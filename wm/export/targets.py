@@ -52,6 +52,7 @@ class ExportTarget:
 
 TARGETS: dict[str, ExportTarget] = {
     "navmesh": ExportTarget("wm.export.navmesh", "where a body can walk, as triangles: JSON and GLB"),
+    "scaffold": ExportTarget("wm.export.scaffold", "the textured building and its furniture: GLB with lights and cameras"),
 }
 
 
