@@ -14,16 +14,43 @@ METRES: Mapping[str, float] = {
 """Metres per unit, for every word that `metadata.units` may be."""
 
 OPENINGS: Mapping[str, str] = {
-    **dict.fromkeys(("door", "entrance", "entry", "front_door", "double_door", "sliding_door", "french_door"), "door"),
-    **dict.fromkeys(("passage", "opening", "archway", "arch", "doorway", "passageway"), "passage"),
-    "window": "window",
+    **dict.fromkeys(
+        (
+            "door", "doors", "entrance", "entry", "front_door", "main_door", "entrance_door", "exterior_door", "external_door",
+            "interior_door", "internal_door", "single_door", "double_door", "sliding_door", "pocket_door", "folding_door",
+            "bifold_door", "swing_door", "hinged_door", "french_door", "patio_door", "balcony_door", "terrace_door",
+            "garage_door", "gate",
+        ),
+        "door",
+    ),
+    **dict.fromkeys(
+        (
+            "passage", "opening", "archway", "arch", "doorway", "passageway", "open", "gap", "cased_opening", "wall_opening",
+            "open_wall", "walkthrough", "open_connection",
+        ),
+        "passage",
+    ),
+    **dict.fromkeys(
+        (
+            "window", "windows", "fixed_window", "casement_window", "sash_window", "sliding_window", "bay_window",
+            "corner_window", "picture_window", "french_window", "window_wall", "glazing", "curtain_wall",
+        ),
+        "window",
+    ),
+    **dict.fromkeys(
+        (
+            "hatch", "serving_hatch", "service_hatch", "pass_through", "servery", "internal_window", "interior_window",
+        ),
+        "hatch",
+    ),
 }
 """The sort that each word for an opening means."""
 
 KEYS: Mapping[str, tuple[str, ...]] = {
-    "plan": ("metadata", "rooms", "objects"),
+    "plan": ("metadata", "rooms", "objects", "solids"),
     "metadata": ("units", "coordinate_system", "wall_thickness", "default_ceiling_height"),
-    "room": ("id", "name", "floor_polygon", "ceiling_height", "openings"),
+    "room": ("id", "name", "floor_polygon", "holes", "columns", "wall_thickness", "walls", "ceiling_height", "openings"),
+    "wall": ("segment", "thickness"),
     "opening": ("type", "wall_segment", "position", "width", "height", "sill_height"),
 }
 """The keys that are read, by what they belong to."""
