@@ -85,18 +85,22 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     file = config.plan.file
     mends = {"repair": config.plan.repair, "unreachable": config.plan.unreachable}
     mended = ["repair"] * config.plan.repair
-    source = [file_digest(_user_file(file)), *mended] if file else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
+    source = (
+        [file_digest(_user_file(file)), *mended]
+        if file
+        else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
+    )
     seed = seed_of(config, "plan")
     key = run.key("plan", *source, config.plan.max_iterations, seed)
     edited = edits.edited_key(run, "plan", PLAN, key)
     if edited is not None and is_json((run.folder.path / PLAN).read_bytes()):
-        plan = _told(run.folder.path / PLAN, **mends)
+        plan, _ = _told(run.folder.path / PLAN, repair=False, unreachable=config.plan.unreachable)  # read again as it stands
         edits.accept(run, "plan", edited, [PLAN], "structure, furniture, cameras and all that follows are made again")
         return plan, edited
     if not run.folder.has("plan", key):
         if file:
-            plan = _told(pathlib.Path(file), **mends)
-            layout = {"source": "file", "iterations": 0, "seconds": 0.0}
+            plan, notes = _told(pathlib.Path(file), **mends)
+            layout = {"source": "file", "iterations": 0, "seconds": 0.0, "notes": list(notes)}
         else:
             backend = make_backend("language", config.language, services=run.services)
             proposal = propose_plan(
@@ -112,12 +116,12 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     return stored_plan(run.folder.path / PLAN), key
 
 
-def _told(file: pathlib.Path, *, repair: bool, unreachable: str) -> FloorPlan:
-    """A user's plan; what is not read or was changed in it is said."""
+def _told(file: pathlib.Path, *, repair: bool, unreachable: str) -> tuple[FloorPlan, tuple[str, ...]]:
+    """A user's plan, and what is not read of it, may not be meant or was changed in it, which is said too."""
     reading = read_plan_file(file, repair=repair, unreachable=unreachable)
     for note in reading.notes:
         console.say(f"{file}: {note}")
-    return reading.plan
+    return reading.plan, reading.notes
 
 
 def _user_file(file: str) -> pathlib.Path:

@@ -333,7 +333,10 @@ def test_an_entrance_is_closed_and_no_way():
         ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 4), (4, 0), 3.0)), B), "from 0.15 to 3.85 m of its wall_segment"),
         ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1, width=0.4)), B), "no doors or passages lead to it"),
         ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 0.1)), B), "plan.repair=true moves or narrows it"),
-        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)), "closes the gap of 0.1 m"),
+        (
+            (rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)),
+            "closes the gap of 0.1 m",
+        ),
     ],
 )
 def test_a_refusal_says_what_would_be_right(rooms, says):

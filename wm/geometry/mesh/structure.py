@@ -78,9 +78,7 @@ def _moved(plan: FloorPlan, shift: np.ndarray) -> FloorPlan:
         walls = tuple(dataclasses.replace(wall, segment=wall.segment + shift) for wall in room.walls)
         holes, columns = (tuple(ring + shift for ring in rings) for rings in (room.holes, room.columns))
         rooms.append(
-            dataclasses.replace(
-                room, polygon=room.polygon + shift, openings=openings, holes=holes, columns=columns, walls=walls
-            )
+            dataclasses.replace(room, polygon=room.polygon + shift, openings=openings, holes=holes, columns=columns, walls=walls)
         )
     return dataclasses.replace(plan, rooms=tuple(rooms), solids=tuple(ring + shift for ring in plan.solids))
 

@@ -15,14 +15,13 @@ from collections.abc import Sequence
 import shapely
 
 from wm.geometry.plan.connected import connected_parts, entrances
-from wm.geometry.plan.footprint import interiors
+from wm.geometry.plan.footprint import ENTERED, interiors
 from wm.geometry.plan.openings import describe, place, portals
 from wm.geometry.plan.portal import STEP, WAY, Portal
 from wm.geometry.plan.records import FloorPlan, Opening, Room
 from wm.geometry.plan.walls import Wall, plan_walls, room_polygon
 
 COURTYARD = 1.0  # square metres of open air that a hole without a room must have
-ENTERED = 0.3  # metres: the radius of a disk that fits into every room that is entered, a little more than a body
 UPRIGHT = 1.7  # metres of a door that one passes without stooping
 _MOST_NAMED = 8
 
@@ -119,7 +118,9 @@ def doubts(plan: FloorPlan) -> tuple[str, ...]:
         room, opening = plan.rooms[portal.wall.room], portal.opening
         name = f"room {room.id}: {describe(opening, portal.index)}"
         if portal.kind in ("door", "passage") and not (portal.is_way or portal.is_entrance):
-            notes.append(f"{name} is {opening.width:g} x {opening.height:g} m: nobody gets through, a body needs {WAY[0]:g} x {WAY[1]:g}")
+            notes.append(
+                f"{name} is {opening.width:g} x {opening.height:g} m: nobody gets through, a body needs {WAY[0]:g} x {WAY[1]:g}"
+            )
         elif portal.kind in ("door", "passage") and opening.height < UPRIGHT:
             notes.append(f"{name} is {opening.height:g} m high: people stoop to get through")
     return (*notes, *_apart(plan))
@@ -131,7 +132,10 @@ def _apart(plan: FloorPlan) -> list[str]:
     doors = {portal.wall.room for portal in entrances(plan)}
     notes = []
     for part in others:
-        how = "is reached from outside only" if doors & set(part) else "cannot be reached: no doors or passages lead there"
         names = ", ".join(plan.rooms[room].id for room in part[:_MOST_NAMED]) + (" ..." if len(part) > _MOST_NAMED else "")
-        notes.append(f"room {names}: {how} from {plan.rooms[main[0]].id} (plan.unreachable=refuse refuses that)")
+        way = f"no doors or passages lead there from {plan.rooms[main[0]].id}"
+        refused = " (plan.unreachable=refuse refuses that)"
+        notes.append(
+            f"room {names}: {way}; {'it has an entrance of its own' if doors & set(part) else f'nobody gets in{refused}'}"
+        )
     return notes

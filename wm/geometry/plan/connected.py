@@ -1,8 +1,8 @@
 """Which rooms of a plan people can walk between, and where they come in.
 
-    connected_parts   rooms joined by doors and passages, part by part: one part unless the plan has separate buildings, garages
-                      or rooms without a door
-    entrances         the doors to the outside
+connected_parts   rooms joined by doors and passages, part by part: one part unless the plan has separate buildings, garages
+                  or rooms without a door
+entrances         the doors to the outside
 """
 
 from collections.abc import Iterable

@@ -151,7 +151,9 @@ def _faces(plan: FloorPlan, wall: Wall, room: int, face: float, away: float) -> 
     for depth in (SHARED, 2 * SHARED):
         ends = wall.start + np.array([[0.0], [wall.length]]) * wall.direction + (face + away * depth) * wall.normal
         parts = shapely.get_parts(floor.intersection(shapely.LineString(ends)))
-        spans = [sorted(((np.asarray(part.coords) - wall.start) @ wall.direction)[[0, -1]].tolist()) for part in parts if part.length]
+        spans = [
+            sorted(((np.asarray(part.coords) - wall.start) @ wall.direction)[[0, -1]].tolist()) for part in parts if part.length
+        ]
         line = shapely.MultiLineString([[(a, 0.0), (b, 0.0)] for a, b in spans])
         free = line if free is None else free.intersection(line)
     merged = shapely.line_merge(free) if free is not None and not free.is_empty else shapely.MultiLineString()

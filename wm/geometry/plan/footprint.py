@@ -14,6 +14,7 @@ from shapely.geometry import Polygon
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.plan.walls import SHARED, Wall, plan_walls, room_polygons
 
+ENTERED = 0.3  # metres: the radius of a disk that fits into every room that is entered, a little more than a body
 _MITRE = 4.0  # wall thicknesses beyond a corner at which a mitre is cut off
 _DUST = 1e-6  # square metres below which a part of an interior is rounding error
 

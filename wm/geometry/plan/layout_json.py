@@ -258,10 +258,16 @@ class Reader:
             if not isinstance(given, list):
                 given = [given] * len(edges)
             if len(given) not in (len(edges), len(edges) - 1):  # the last is missing where the first point is repeated
-                message = f"wall_thickness is a list of {len(given)}; it must be one number, or one for each of {len(edges)} edges"
+                message = (
+                    f"wall_thickness is a list of {len(given)}; it must be one number, or one for each of {len(edges)} edges"
+                )
                 self._fault(room, "type", message)
                 given = []
-            rows = [{"segment": list(edge), "thickness": one} for edge, one in zip(edges, given) if one is not None and edge[0] != edge[1]]
+            rows = [
+                {"segment": list(edge), "thickness": one}
+                for edge, one in zip(edges, given)
+                if one is not None and edge[0] != edge[1]
+            ]
             walls += [wall for k, row in enumerate(rows) if (wall := self._wall(room, row, f"wall_thickness[{k}]")) is not None]
         listed = _given(value, "walls", [])
         if not isinstance(listed, list) or len(listed) > MAX_RINGS or not all(isinstance(row, dict) for row in listed):
@@ -298,9 +304,7 @@ class Reader:
             return None
         return Opening(kind, segment, position, width, height, sill)
 
-    def _number(
-        self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float
-    ) -> float | None:
+    def _number(self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float) -> float | None:
         value = _given(holder, path.rsplit(".", 1)[-1], None)
         if value is None and default is not None:
             return default
