@@ -64,7 +64,9 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     """
     prepare_process()
     if config.plan.file is not None:
-        read_plan_file(config.plan.file)  # raises before a folder is made
+        read_plan_file(
+            config.plan.file, repair=config.plan.repair, unreachable=config.plan.unreachable
+        )  # raises before a folder is made
     meter = StageMeter(keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
     lend = Neighbours(neighbours, say=console.say, account=account).lend
