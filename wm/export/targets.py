@@ -37,4 +37,6 @@ class ExportTarget:
         return cast(TargetModule, importlib.import_module(self.module))
 
 
-TARGETS: dict[str, ExportTarget] = {}
+TARGETS: dict[str, ExportTarget] = {
+    "mjcf": ExportTarget("wm.export.simulation.mjcf", "the house for MuJoCo, furniture as bodies", "simulation"),
+}
