@@ -39,6 +39,6 @@ class ExportTarget:
 
 TARGETS: dict[str, ExportTarget] = {
     "mjcf": ExportTarget("wm.export.simulation.mjcf", "the house for MuJoCo, furniture as bodies", "simulation"),
-    "urdf": ExportTarget("wm.export.simulation.urdf", "the house as a robot description (ROS, Drake, Isaac, PyBullet)", "simulation"),
+    "urdf": ExportTarget("wm.export.simulation.urdf", "the house as a robot description", "simulation"),
     "usd": ExportTarget("wm.export.simulation.usd", "OpenUSD: scaffold, splats, colliders, masses, labels", "simulation"),
 }

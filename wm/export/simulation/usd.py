@@ -6,9 +6,9 @@
     usd/splats.usdc  a ParticleField3DGaussianSplat for each room
     usd/textures     the rooms' painted images, and those of objects
 
-The variant set "shows" of /House has scaffold (at first), splats and both. Prims are named by identifiers made of ids; labels are in
-the semantics "category", and the ids are the prims' display names. Colliders have the purpose guide, which viewers hide at first.
-Everything is written in one order, so equal runs give equal bytes.
+The variant set "shows" of /House has scaffold (at first), splats and both. Prims are named by identifiers made of ids; labels are
+in the semantics "category", and the ids are the prims' display names. Colliders have the purpose guide, which viewers hide at
+first. Everything is written in one order, so equal runs give equal bytes.
 """
 
 from collections.abc import Iterator, Sequence

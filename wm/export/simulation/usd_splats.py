@@ -1,7 +1,7 @@
 """The gaussians as OpenUSD's own prim for them, ParticleField3DGaussianSplat: one for each room.
 
-Its scales are linear and its opacities 0 to 1; coefficients of spherical harmonics are those of `Gaussians.sh`, and so is 0.5 added
-to them. The degree is always written, since it falls back to 3.
+Its scales are linear and its opacities 0 to 1; coefficients of spherical harmonics are those of `Gaussians.sh`, to whose colour
+0.5 is added here and there. The degree is always written, since it falls back to 3.
 """
 
 from collections.abc import Iterator
