@@ -5,5 +5,6 @@
     targets       TARGETS: the targets by name, and the module of each
     records       ExportError, Check
     navmesh       where a body can walk
+    simulation/   the house for simulators: MJCF, URDF, OpenUSD
     words         words of a command line: a folder, and keys with their values
 """

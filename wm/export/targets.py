@@ -51,7 +51,10 @@ class ExportTarget:
 
 
 TARGETS: dict[str, ExportTarget] = {
+    "mjcf": ExportTarget("wm.export.simulation.mjcf", "the house for MuJoCo, furniture as bodies", "simulation"),
     "navmesh": ExportTarget("wm.export.navmesh", "where a body can walk, as triangles: JSON and GLB"),
+    "urdf": ExportTarget("wm.export.simulation.urdf", "the house as a robot description", "simulation"),
+    "usd": ExportTarget("wm.export.simulation.usd", "OpenUSD: scaffold, splats, colliders, masses, labels", "simulation"),
 }
 
 
