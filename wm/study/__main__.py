@@ -3,6 +3,8 @@
     python -m wm.study make ours=renders/ours WonderWorld=renders/wonderworld output=study questions=comparison seed=0
     python -m wm.study serve study
     python -m wm.study analyse study
+
+docs/study.md says more.
 """
 
 import pathlib
@@ -21,8 +23,8 @@ from wm.study.sessions import Plan
 from wm.study.words import Words, sorted_words
 
 BAD_INPUT = 2
-_USAGE = """python -m wm.study make METHOD=VIDEO_OR_FOLDER ... output=FOLDER [questions=comparison|ablation|FILE] [reference=METHOD]
-                        [seed=0] [participants=60] [ratings=N] [pairs=N]
+_USAGE = """python -m wm.study make METHOD=VIDEO_OR_FOLDER ... output=FOLDER [questions=comparison|ablation|FILE]
+                        [reference=METHOD] [seed=0] [participants=60] [ratings=N] [pairs=N]
 python -m wm.study serve FOLDER [port=8765] [host=127.0.0.1]
 python -m wm.study analyse FOLDER [ANSWERS ...] [output=FOLDER/results] [seed=0] [resamples=10000]
 docs/study.md says more."""
@@ -61,7 +63,7 @@ def _make(words: Words) -> None:
     for line in make_study(words.methods, output, read_questions(words.text("questions", "comparison")), plan):
         console.warn(f"wm.study: {line}")
     study = open_study(output)
-    console.say(f"{output / 'page'}: publish this folder; {len(study.sessions[0])} pages a participant, {len(study.sessions)} sessions")
+    console.say(f"{output / 'page'}: publish this folder; {len(study.sessions)} sessions of {len(study.sessions[0])} pages")
     console.say(f"{output / 'key.json'}: which video is of which method; keep it, and do not publish it")
 
 
@@ -88,7 +90,8 @@ def _analyse(words: Words) -> None:
     output = pathlib.Path(words.text("output", str(study.folder / "results")))
     found = analyse(study, read, seed=words.number("seed", 0) or 0, resamples=words.number("resamples", 10_000, least=100) or 100)
     write_results(study, found, output)
-    console.say(f"{output / 'results.md'}: {found.counted} participants counted, {len(found.excluded)} excluded, {len(read.refused)} files refused")
+    figures = f"participants counted: {found.counted}, excluded: {len(found.excluded)}; files refused: {len(read.refused)}"
+    console.say(f"{output / 'results.md'}: {figures}")
 
 
 def _one_folder(words: Words) -> pathlib.Path:

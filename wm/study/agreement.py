@@ -3,8 +3,8 @@
     alpha = 1 - D_o / D_e
     D_o = sum_ck o_ck d_ck / n,    D_e = sum_ck n_c n_k d_ck / (n (n - 1))
 
-o_ck counts pairs of values (c, k) that two raters gave to one unit, each unit of m values weighted 1 / (m - 1); n_c are its row sums
-and n their sum. The difference d_ck is 0 or 1 for names; for ranks it is the squared number of values between the two,
+o_ck counts pairs of values (c, k) that two raters gave to one unit, each unit of m values weighted 1 / (m - 1); n_c are its row
+sums and n their sum. The difference d_ck is 0 or 1 for names; for ranks it is the squared number of values between the two,
 (n_c / 2 + sum of n_g strictly between + n_k / 2)². Units with fewer than two values say nothing.
 
 Source: Krippendorff, Computing Krippendorff's Alpha-Reliability, University of Pennsylvania, 2011.

@@ -35,7 +35,7 @@ class Findings:
     left: Estimate  # share of the pairs in which the left video was chosen: 0.5 where sides do not matter
     rated: tuple[Rating, ...]
     chosen: tuple[Choice, ...]
-    confidence_resamples: int
+    resamples: int  # of the bootstrap
 
     @property
     def counted(self) -> int:
@@ -64,7 +64,7 @@ def analyse(study: Study, read: ReadAnswers, *, seed: int = 0, resamples: int = 
         left=exact_share(sum(choice.side == "left" for choice in chosen), len(chosen), _participants(chosen)),
         rated=tuple(rated),
         chosen=tuple(chosen),
-        confidence_resamples=resamples,
+        resamples=resamples,
     )
 
 

@@ -95,7 +95,9 @@ def _sheet(study: Study, file: pathlib.Path) -> Sheet:
     if len(given) != len(trials):
         raise _Refused(f"it has {len(given)} of {len(trials)} pages")
     questions = {question.id for question in study.questions.ratings}
-    return Sheet(participant, str(file), slot, tuple(_answer(n, *both, questions) for n, both in enumerate(zip(trials, given), 1)))
+    return Sheet(
+        participant, str(file), slot, tuple(_answer(n, *both, questions) for n, both in enumerate(zip(trials, given), 1))
+    )
 
 
 def _values(file: pathlib.Path) -> dict[str, Any]:
@@ -122,6 +124,10 @@ def _answer(page: int, trial: Trial, given: Any, questions: set[str]) -> Answer:
             raise _Refused(f"page {page} has no choice of left or right")
         return Answer(None, given["choice"])
     ratings = given.get("ratings")
-    if not isinstance(ratings, dict) or set(ratings) != questions or not all(type(v) is int and v in POINTS for v in ratings.values()):
+    if (
+        not isinstance(ratings, dict)
+        or set(ratings) != questions
+        or not all(type(v) is int and v in POINTS for v in ratings.values())
+    ):
         raise _Refused(f"page {page} has not a number from 1 to 5 for every question")
     return Answer(ratings, None)

@@ -63,7 +63,7 @@ def dealt(strata: Sequence[Sequence[Card]], each: int, hands: int, rng: random.R
 
 
 class Sides(Generic[Card]):
-    """On which side the first of a pair stands: of each item it changes each time, and half of the items of a stratum begin left."""
+    """On which side the first of a pair stands: it changes with each showing, and half of the items of a stratum begin left."""
 
     def __init__(self, strata: Sequence[Sequence[Card]], rng: random.Random):
         self._left: dict[Card, bool] = {}

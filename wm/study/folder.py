@@ -5,6 +5,8 @@
     serve.py     the server, for `python serve.py`: shows page/, stores answers/
     answers/     one file a participant
     README.txt   this, for whoever finds the folder
+
+The same arguments give the same bytes.
 """
 
 import hashlib
@@ -84,7 +86,7 @@ def make_study(methods: Mapping[str, pathlib.Path], output: pathlib.Path, questi
 
 
 def _only(videos: list[Video], folder: pathlib.Path) -> None:
-    """Removes videos that an earlier call has left, and gives all the same date: they were written one method after the other."""
+    """Removes videos of an earlier call, and gives all the same date, since they were written by method."""
     names = {f"{video.name}.mp4" for video in videos}
     for file in folder.glob("*.mp4"):
         if file.name in names:

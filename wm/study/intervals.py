@@ -55,7 +55,8 @@ def bootstrapped_mean(answers: Iterable[tuple[Hashable, float]], *, seed: int, r
 def exact_share(hits: int, answers: int, participants: int) -> Estimate:
     """A share with its exact binomial interval, as if answers were independent; they are where each is of another participant.
 
-    Source: Clopper and Pearson, The use of confidence or fiducial limits illustrated in the case of the binomial, Biometrika 1934.
+    Source: Clopper and Pearson, The use of confidence or fiducial limits illustrated in the case of the binomial,
+    Biometrika 26, 1934.
     """
     if answers == 0:
         return Estimate(math.nan, math.nan, math.nan, 0, 0)

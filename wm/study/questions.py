@@ -118,16 +118,28 @@ def _record(kind: type[Record], values: Any, place: str) -> Record:
     for key, value in given.items():
         if key not in known:
             near = difflib.get_close_matches(str(key), known, n=1)
-            raise InputError(f"{place}: no key {key}" + (f"; did you mean {near[0]}?" if near else f"; it has {', '.join(known)}"))
+            raise InputError(
+                f"{place}: no key {key}" + (f"; did you mean {near[0]}?" if near else f"; it has {', '.join(known)}")
+            )
         if not _fits(value, known[key].type):
             raise InputError(f"{place}: {key} is not {value!r}; it wants {_WANTED.get(str(known[key].type), 'text')}")
     missing = [name for name, field in known.items() if name not in given and field.default is MISSING]
     if missing or (kind is QuestionSet and not given["consent"]):
         raise InputError(f"{place}: {', '.join(missing or ['consent'])} is missing")
-    return kind(**{key: tuple(value) if isinstance(value, list) else value for key, value in given.items()})
+    return kind(**{key: _as_field(value, known[key].type) for key, value in given.items()})
 
 
-_WANTED = {str(bool): "true or false", str(int): "a whole number", str(float): "a number", str(tuple[str, ...]): "text, or a list of texts"}
+_WANTED = {
+    str(bool): "true or false",
+    str(int): "a whole number",
+    str(float): "a number",
+    str(tuple[str, ...]): "text, or a list of texts",
+}
+
+
+def _as_field(value: Any, kind: Any) -> Any:
+    """JSON has lists for tuples, and 1 for 1.0."""
+    return tuple(value) if isinstance(value, list) else float(value) if kind is float else value
 
 
 def _fits(value: Any, kind: Any) -> bool:

@@ -6,6 +6,8 @@
     agreement.csv      Krippendorff's alpha of every question
     participants.csv   who is counted, and who is not and why
     answers.csv        every rating and preference that is counted, one a line, with methods and scenes
+
+The same answers give the same bytes.
 """
 
 import csv
@@ -38,18 +40,19 @@ def write_results(study: Study, found: Findings, output: pathlib.Path) -> None:
 
 def _page(study: Study, found: Findings) -> str:
     excluded = len(found.excluded)
-    parts = [
-        f"# {study.questions.title}",
-        f"{found.counted} participants are counted; {excluded} failed an attention check and {'is' if excluded == 1 else 'are'} not. "
-        f"Brackets are 95 % intervals.",
-    ]
+    counted = f"{found.counted} participant{' is' if found.counted == 1 else 's are'} counted"
+    others = f"{excluded} failed an attention check and {'is' if excluded == 1 else 'are'} not"
+    parts = [f"# {study.questions.title}", f"{counted}; {others}. Brackets are 95 % intervals."]
     if study.questions.ratings:
         parts += ["## Ratings", _ratings_table(study, found), _ratings_words(found)]
     if study.questions.preference:
         parts += ["## Preferences", _preferences_table(study, found), _preferences_words(found)]
     parts += ["## Agreement", _agreement_table(found), _AGREEMENT_WORDS]
     if found.excluded:
-        parts += ["## Not counted", _table(("participant", "reason"), [(sheet.participant, why) for sheet, why in found.excluded])]
+        parts += [
+            "## Not counted",
+            _table(("participant", "reason"), [(sheet.participant, why) for sheet, why in found.excluded]),
+        ]
     return "\n\n".join(parts) + "\n"
 
 
@@ -64,7 +67,9 @@ def _ratings_table(study: Study, found: Findings) -> str:
         row, most = [method], 0
         for question in questions:
             estimate = found.ratings[method, question.id]
-            row += [_interval(estimate, "{:.2f}")] + ([_figure(_paper(study, method, question.id), "{:.2f}")] if with_paper else [])
+            row += [_interval(estimate, "{:.2f}")] + (
+                [_figure(_paper(study, method, question.id), "{:.2f}")] if with_paper else []
+            )
             most = max(most, estimate.answers)
         rows.append([*row, most])
     return _table([*head, "answers"], rows)
@@ -75,17 +80,24 @@ def _paper(study: Study, method: str, question: str) -> float | None:
 
 
 def _ratings_words(found: Findings) -> str:
-    return f"Means of 1 to 5, higher is better. Intervals: percentiles of {found.confidence_resamples} bootstrap samples of participants."
+    words = "Means of 1 to 5, higher is better. Intervals: percentiles of"
+    return f"{words} {found.resamples} bootstrap samples of participants."
 
 
 def _preferences_table(study: Study, found: Findings) -> str:
     rows = [
-        (first, second, _interval(estimate, "{:.1f}", 100), _figure(_paper_share(study, second), "{:.1f}", 100), estimate.answers)
+        (
+            first,
+            second,
+            _interval(estimate, "{:.1f}", 100.0),
+            _figure(_paper_share(study, second), "{:.1f}", 100.0),
+            estimate.answers,
+        )
         for (first, second), estimate in found.preferences.items()
     ]
     shares = [estimate.value for estimate in found.preferences.values() if estimate.answers]
     if study.questions.pairs == "reference" and shares:
-        paper = _figure(_paper_share(study, ""), "{:.1f}", 100)
+        paper = _figure(_paper_share(study, ""), "{:.1f}", 100.0)
         rows.append((study.reference, "mean of these", f"{100 * sum(shares) / len(shares):.1f}", paper, len(found.chosen)))
     return _table(("method", "against", "preferred (%)", "paper", "answers"), rows)
 
@@ -98,8 +110,12 @@ def _paper_share(study: Study, method: str) -> float | None:
 def _preferences_words(found: Findings) -> str:
     words = "Intervals are exact (Clopper and Pearson)."
     if any(estimate.answers > estimate.participants for estimate in found.preferences.values()):
-        words += " Some participants judged a pair of methods in several scenes; the intervals take these answers as independent, and are too narrow where they are not."
-    return f"{words} The left video was chosen in {_interval(found.left, '{:.1f}', 100)} % of all pairs; 50 % is no preference of a side."
+        words += (
+            " Some participants judged a pair of methods in several scenes. The intervals take these answers as independent, and"
+        )
+        words += " are too narrow where they are not."
+    share = _interval(found.left, "{:.1f}", 100.0)
+    return f"{words} The left video was chosen in {share} % of all pairs; 50 % is no preference of a side."
 
 
 def _agreement_table(found: Findings) -> str:
@@ -108,17 +124,21 @@ def _agreement_table(found: Findings) -> str:
 
 
 _AGREEMENT_WORDS = (
-    "1 is perfect agreement, 0 that of answers shuffled at random. Krippendorff draws tentative conclusions from 0.667 on and firm "
-    "ones from 0.8. A dash: undefined, since nothing was judged twice or all answers are the same."
+    "1 is perfect agreement, 0 that of answers shuffled at random. Krippendorff draws tentative conclusions from 0.667 on and "
+    "firm ones from 0.8. A dash: undefined, since nothing was judged twice or all answers are the same."
 )
 
 
 def _csv_tables(study: Study, found: Findings) -> dict[str, tuple[Sequence[str], list[Sequence[Any]]]]:
     interval = ("low", "high", "answers", "participants", "paper")
     ratings = [
-        (method, question, *_numbers(estimate), _paper(study, method, question)) for (method, question), estimate in found.ratings.items()
+        (method, question, *_numbers(estimate), _paper(study, method, question))
+        for (method, question), estimate in found.ratings.items()
     ]
-    preferences = [(first, second, *_numbers(estimate), _paper_share(study, second)) for (first, second), estimate in found.preferences.items()]
+    preferences = [
+        (first, second, *_numbers(estimate), _paper_share(study, second))
+        for (first, second), estimate in found.preferences.items()
+    ]
     agreement = [(row.question, row.level, _rounded(row.alpha), row.units) for row in found.agreement]
     people = [(sheet.participant, sheet.slot + 1, "yes", "") for sheet in found.sheets]
     people += [(sheet.participant, sheet.slot + 1, "no", reason) for sheet, reason in found.excluded]
@@ -134,20 +154,26 @@ def _csv_tables(study: Study, found: Findings) -> dict[str, tuple[Sequence[str],
 
 
 def _numbers(estimate: Estimate) -> tuple[Any, ...]:
-    return (*(_rounded(value) for value in (estimate.value, estimate.low, estimate.high)), estimate.answers, estimate.participants)
+    return (
+        *(_rounded(value) for value in (estimate.value, estimate.low, estimate.high)),
+        estimate.answers,
+        estimate.participants,
+    )
 
 
 def _rounded(value: float | None) -> float | None:
     return None if value is None or math.isnan(value) else round(value, 6)
 
 
-def _interval(estimate: Estimate, form: str, factor: float = 1) -> str:
+def _interval(estimate: Estimate, form: str, factor: float = 1.0) -> str:
     if math.isnan(estimate.low):
         return _figure(estimate.value, form, factor)
-    return f"{_figure(estimate.value, form, factor)} [{_figure(estimate.low, form, factor)}, {_figure(estimate.high, form, factor)}]"
+    return (
+        f"{_figure(estimate.value, form, factor)} [{_figure(estimate.low, form, factor)}, {_figure(estimate.high, form, factor)}]"
+    )
 
 
-def _figure(value: float | None, form: str, factor: float = 1) -> str:
+def _figure(value: float | None, form: str, factor: float = 1.0) -> str:
     return MISSING if value is None or math.isnan(value) else form.format(factor * value)
 
 

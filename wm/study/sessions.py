@@ -80,7 +80,9 @@ def _rated(names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan:
     return [[Trial((name,)) for name in rng.sample(hand, len(hand))] for hand in hands]
 
 
-def _compared(names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: Plan, rng: random.Random) -> list[list[Trial]]:
+def _compared(
+    names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: Plan, rng: random.Random
+) -> list[list[Trial]]:
     couples: list[tuple[str, str]] = []
     if questions.preference:
         if len(names) < 2:

@@ -1,8 +1,8 @@
 """Videos of methods, matched by the name of the scene, and copied without anything that tells the method.
 
-A browser plays H.264, VP9 and AV1 with 4:2:0 colours; videos of these are copied frame by frame as they are, and others (such as the
-MPEG-4 that OpenCV writes as mp4v) are encoded anew as H.264. Sound, titles, comments and dates in the file are left out. A copy is
-named by the digest of its bytes.
+A browser plays H.264, VP9 and AV1 with 4:2:0 colours; such videos are copied frame by frame as they are, and others (such as the
+MPEG-4 that OpenCV writes as mp4v) are encoded anew as H.264. Sound, titles, comments and dates in the file are left out. A copy
+is named by the digest of its bytes.
 """
 
 import hashlib
@@ -22,6 +22,9 @@ PLAYED = ("h264", "vp9", "av1")
 """Codecs that browsers play out of MP4 files."""
 CRF = 18
 """Constant rate factor of x264 for videos that have to be encoded anew: no difference is visible."""
+_COPIED = "-c copy"
+_ENCODED = f"-vf crop=trunc(iw/2)*2:trunc(ih/2)*2 -c:v libx264 -crf {CRF} -preset medium -pix_fmt yuv420p -threads 2"
+_BARE = "-map 0:v:0 -map_metadata -1 -map_chapters -1 -an -sn -dn -movflags +faststart -fflags +bitexact -bitexact -f mp4"
 _DURATION = 0.05  # share by which videos of one scene may differ in length without a word
 _DIGITS = 16  # hexadecimal digits of a video's name
 
@@ -53,8 +56,8 @@ def matched(methods: Mapping[str, pathlib.Path]) -> tuple[list[Source], list[str
     """The videos of the scenes that all methods have, and the names of scenes that some lack.
 
     Args:
-      methods: for each method a video, or a folder in which each video has the name of its scene or trajectory. Where every method
-        has one video only, they are of the same scene whatever their names are.
+      methods: for each method a video, or a folder in which each video has the name of its scene or trajectory. Where every
+        method has one video only, they are of the same scene whatever their names are.
 
     Raises:
       InputError: a path holds no video, or no scene is common to all.
@@ -93,11 +96,10 @@ def copied(source: Source, folder: pathlib.Path) -> Video:
       InputError: the file is no video, or is damaged; the message names method and file.
     """
     width, height, seconds, plays = _properties(source)
-    told = "-c copy" if plays else f"-vf crop=trunc(iw/2)*2:trunc(ih/2)*2 -c:v libx264 -crf {CRF} -preset medium -pix_fmt yuv420p -threads 2"
-    bare = "-map 0:v:0 -map_metadata -1 -map_chapters -1 -an -sn -dn -movflags +faststart -fflags +bitexact -bitexact -f mp4"
+    told = _COPIED if plays else _ENCODED
     with tempfile.TemporaryDirectory() as scratch:
         copy = pathlib.Path(scratch) / "copy.mp4"
-        _ffmpeg(source, ["-i", str(source.path), *told.split(), *bare.split(), str(copy)])
+        _ffmpeg(source, ["-i", str(source.path), *told.split(), *_BARE.split(), str(copy)])
         content = copy.read_bytes()
     name = hashlib.sha256(content).hexdigest()[:_DIGITS]
     write_atomically(folder / f"{name}.mp4", content)

@@ -79,11 +79,11 @@
       element("h1", {}, study.title),
       ...study.consent.map((text) => element("p", {}, text)),
       element("div", { class: "buttons" }, start),
-      element("p", { class: "quiet" }, keyboardHelp())));
+      element("p", { class: "quiet" }, element("span", { class: "keys" }, keyboardHelp()), "You can reload the page at any time and go on where you were.")));
   }
   function keyboardHelp() {
     const pairs = study.preference ? " ← and → choose one of two videos;" : "";
-    return `With a keyboard: 1 to 5 rate,${pairs} Space plays again, Enter goes on. You can reload the page at any time and go on where you were.`;
+    return `With a keyboard: 1 to 5 rate,${pairs} Space plays again, Enter goes on. `;
   }
   function trial(trials, number) {
     const now = trials[number];
