@@ -8,7 +8,7 @@ import imageio_ffmpeg
 
 from wm.study.folder import Study, make_study, open_study
 from wm.study.questions import read_questions
-from wm.study.sessions import Plan
+from wm.study.sessions import StudyPlan
 
 METHODS = ("ours", "WonderWorld", "FlexWorld")
 SCENES = ("hall_orbit", "kitchen_door")
@@ -34,7 +34,7 @@ def clips(folder: pathlib.Path) -> dict[str, pathlib.Path]:
 
 def small_study(folder: pathlib.Path, questions="comparison", **plan) -> Study:
     """A study of those videos."""
-    make_study(clips(folder / "videos"), folder / "study", read_questions(questions), Plan(**{"participants": 6, **plan}))
+    make_study(clips(folder / "videos"), folder / "study", read_questions(questions), StudyPlan(**{"participants": 6, **plan}))
     return open_study(folder / "study")
 
 

@@ -9,7 +9,7 @@ from tests.study.clips import METHODS, SCENES, answers, clips, hand_in
 from wm.errors import InputError
 from wm.study.folder import make_study, open_study
 from wm.study.questions import read_questions
-from wm.study.sessions import Plan
+from wm.study.sessions import StudyPlan
 
 COMPARISON = read_questions("comparison")
 
@@ -43,22 +43,22 @@ def test_the_key_tells_every_video(made_study):
 def test_the_same_arguments_give_the_same_bytes_and_another_seed_another_study(tmp_path):
     methods = clips(tmp_path / "videos")
     for name, seed in (("a", 0), ("b", 0), ("c", 1)):
-        make_study(methods, tmp_path / name, COMPARISON, Plan(participants=4, seed=seed))
+        make_study(methods, tmp_path / name, COMPARISON, StudyPlan(participants=4, seed=seed))
     assert contents(tmp_path / "a") == contents(tmp_path / "b")
     assert open_study(tmp_path / "a").id != open_study(tmp_path / "c").id
 
 
 def test_making_it_again_leaves_no_old_video_and_never_a_study_that_was_answered(tmp_path):
     methods = clips(tmp_path / "videos")
-    make_study(methods, tmp_path / "s", COMPARISON, Plan(participants=2))
+    make_study(methods, tmp_path / "s", COMPARISON, StudyPlan(participants=2))
     (methods["ours"] / f"{SCENES[0]}.mp4").unlink()
-    lines = make_study(methods, tmp_path / "s", COMPARISON, Plan(participants=2))
+    lines = make_study(methods, tmp_path / "s", COMPARISON, StudyPlan(participants=2))
     assert lines == [f"left out, since not every method has them: {SCENES[0]}"]
     study = open_study(tmp_path / "s")
     assert {file.stem for file in (tmp_path / "s" / "page" / "videos").iterdir()} == set(study.videos)
     hand_in(study, answers(study, 0, 1))
     with pytest.raises(InputError, match="people have answered this study already"):
-        make_study(methods, tmp_path / "s", COMPARISON, Plan(participants=2))
+        make_study(methods, tmp_path / "s", COMPARISON, StudyPlan(participants=2))
 
 
 def test_the_key_alone_is_enough_to_analyse(made_study, tmp_path):

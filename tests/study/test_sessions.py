@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from wm.errors import InputError
 from wm.study.questions import Checks, QuestionSet, RatingQuestion, read_questions
-from wm.study.sessions import Plan, Trial, plan_sessions, reference_of
+from wm.study.sessions import StudyPlan, Trial, plan_sessions, reference_of
 
 NAMES = {method: {scene: f"{method}-{scene}" for scene in "abc"} for method in ("ours", "x", "y", "z")}
 COMPARISON = read_questions("comparison")
@@ -19,14 +19,14 @@ def counted(trial: Trial) -> bool:
 
 
 def test_the_same_seed_gives_the_same_sessions_and_another_one_others():
-    first = plan_sessions(NAMES, COMPARISON, Plan(seed=1))
-    assert first == plan_sessions(NAMES, COMPARISON, Plan(seed=1))
-    assert first != plan_sessions(NAMES, COMPARISON, Plan(seed=2))
+    first = plan_sessions(NAMES, COMPARISON, StudyPlan(seed=1))
+    assert first == plan_sessions(NAMES, COMPARISON, StudyPlan(seed=1))
+    assert first != plan_sessions(NAMES, COMPARISON, StudyPlan(seed=2))
 
 
 @given(st.integers(0, 10**6), st.integers(1, 12), st.integers(1, 9), st.integers(1, 30))
 def test_after_any_number_of_sessions_every_video_and_every_pair_was_shown_equally(seed, ratings, pairs, participants):
-    plan = Plan(seed=seed, ratings=ratings, pairs=pairs, participants=participants)
+    plan = StudyPlan(seed=seed, ratings=ratings, pairs=pairs, participants=participants)
     rated, compared, sides = Counter(), Counter(), Counter()
     for session in plan_sessions(NAMES, COMPARISON, plan):
         for trial in filter(counted, session):
@@ -41,7 +41,7 @@ def test_after_any_number_of_sessions_every_video_and_every_pair_was_shown_equal
 
 
 def test_a_session_has_every_method_twice_and_the_reference_against_every_other_once():
-    for session in plan_sessions(NAMES, COMPARISON, Plan()):
+    for session in plan_sessions(NAMES, COMPARISON, StudyPlan()):
         rated = [trial.videos[0] for trial in session if counted(trial) and not trial.is_pair]
         assert len(set(rated)) == 8 and set(Counter(name.split("-")[0] for name in rated).values()) == {2}
         pairs = [trial.videos for trial in session if counted(trial) and trial.is_pair]
@@ -52,7 +52,7 @@ def test_a_session_has_every_method_twice_and_the_reference_against_every_other_
 @given(st.integers(0, 10**6))
 def test_checks_are_as_many_as_asked_for_and_never_first(seed):
     questions = QuestionSet("t", ("c",), (RatingQuestion("q", "Q", "?"),), "which?", checks=Checks(ratings=2, pairs=1, repeats=2))
-    for session in plan_sessions(NAMES, questions, Plan(seed=seed, participants=3)):
+    for session in plan_sessions(NAMES, questions, StudyPlan(seed=seed, participants=3)):
         told = [trial for trial in session if trial.check is not None]
         assert Counter(trial.is_pair for trial in told) == {False: 2, True: 1}
         assert all(trial.check in ({"left", "right"} if trial.is_pair else {1, 2, 3, 4, 5}) for trial in told)
@@ -66,36 +66,38 @@ def test_checks_are_as_many_as_asked_for_and_never_first(seed):
 
 
 def test_ratings_come_before_pairs():
-    for session in plan_sessions(NAMES, COMPARISON, Plan()):
+    for session in plan_sessions(NAMES, COMPARISON, StudyPlan()):
         kinds = [trial.is_pair for trial in session]
         assert kinds == sorted(kinds)
 
 
 def test_all_pairs_are_those_of_every_two_methods():
     questions = QuestionSet("t", ("c",), preference="which?", pairs="all")
-    session = plan_sessions(NAMES, questions, Plan())[0]
+    session = plan_sessions(NAMES, questions, StudyPlan())[0]
     couples = {frozenset(name.split("-")[0] for name in trial.videos) for trial in session}
     assert len(couples) == 6 and len([trial for trial in session if counted(trial)]) == 6
 
 
 def test_the_ablation_has_no_pairs():
-    assert not any(trial.is_pair for session in plan_sessions(NAMES, read_questions("ablation"), Plan()) for trial in session)
+    assert not any(
+        trial.is_pair for session in plan_sessions(NAMES, read_questions("ablation"), StudyPlan()) for trial in session
+    )
 
 
 def test_the_reference_is_the_named_one_or_ours_or_the_first():
-    assert reference_of(["a", "Ours"], Plan()) == "Ours"
-    assert reference_of(["a", "b"], Plan()) == "a"
-    assert reference_of(["a", "b"], Plan(reference="b")) == "b"
+    assert reference_of(["a", "Ours"], StudyPlan()) == "Ours"
+    assert reference_of(["a", "b"], StudyPlan()) == "a"
+    assert reference_of(["a", "b"], StudyPlan(reference="b")) == "b"
     with pytest.raises(InputError, match="reference=c: the methods are a, b"):
-        reference_of(["a", "b"], Plan(reference="c"))
+        reference_of(["a", "b"], StudyPlan(reference="c"))
 
 
 @pytest.mark.parametrize(
     ("plan", "message"),
     [
-        (Plan(ratings=13), "ratings=13: a participant can see 1 to 12"),
-        (Plan(pairs=10), "pairs=10: a participant can see 1 to 9"),
-        (Plan(ratings=0), "ratings=0"),
+        (StudyPlan(ratings=13), "ratings=13: a participant can see 1 to 12"),
+        (StudyPlan(pairs=10), "pairs=10: a participant can see 1 to 9"),
+        (StudyPlan(ratings=0), "ratings=0"),
     ],
 )
 def test_more_than_there_is_is_refused(plan, message):
@@ -105,5 +107,5 @@ def test_more_than_there_is_is_refused(plan, message):
 
 def test_one_method_alone_has_no_pairs_to_show():
     with pytest.raises(InputError, match="pairs need two methods"):
-        plan_sessions({"ours": NAMES["ours"]}, COMPARISON, Plan())
-    assert plan_sessions({"ours": NAMES["ours"]}, read_questions("ablation"), Plan())[0]
+        plan_sessions({"ours": NAMES["ours"]}, COMPARISON, StudyPlan())
+    assert plan_sessions({"ours": NAMES["ours"]}, read_questions("ablation"), StudyPlan())[0]

@@ -9,7 +9,7 @@ import pytest
 
 from tests.study.clips import METHODS, SCENES, clip, clips
 from wm.errors import InputError
-from wm.study.videos import Source, copied, matched, telling_differences, without_twins
+from wm.study.videos import SourceVideo, copied, matched, telling_differences, without_twins
 
 
 def about(path):
@@ -52,18 +52,18 @@ def test_no_common_scene_and_empty_folders_are_one_clear_error(tmp_path):
 def test_a_playable_video_is_copied_frame_by_frame_without_its_title(tmp_path, codec):
     source = clip(tmp_path / "SecretMethod" / "hall.mp4", codec=codec)
     assert b"SecretMethod" in source.read_bytes()
-    video = copied(Source("SecretMethod", "hall", source), tmp_path / "page")
+    video = copied(SourceVideo("SecretMethod", "hall", source), tmp_path / "page")
     copy = tmp_path / "page" / f"{video.name}.mp4"
     assert b"SecretMethod" not in copy.read_bytes() and frames(copy) == frames(source)
     assert (video.width, video.height, video.encoded) == (64, 36, False)
     assert video.seconds == pytest.approx(0.4, abs=0.11)  # ffmpeg counts to the last frame, in some versions to its end
     assert video.name == hashlib.sha256(copy.read_bytes()).hexdigest()[: len(video.name)]
-    assert copied(Source("SecretMethod", "hall", source), tmp_path / "page") == video
+    assert copied(SourceVideo("SecretMethod", "hall", source), tmp_path / "page") == video
 
 
 def test_what_browsers_do_not_play_is_encoded_anew_and_odd_sizes_cropped(tmp_path):
     source = clip(tmp_path / "x" / "hall.mp4", codec="mpeg4", size="65x37")
-    video = copied(Source("x", "hall", source), tmp_path / "page")
+    video = copied(SourceVideo("x", "hall", source), tmp_path / "page")
     said = about(tmp_path / "page" / f"{video.name}.mp4")
     assert video.encoded and "h264" in said and "yuv420p" in said and "64x36" in said
     assert len(frames(tmp_path / "page" / f"{video.name}.mp4")) == len(frames(source))
@@ -75,7 +75,7 @@ def test_a_damaged_file_is_one_clear_error_that_names_method_and_file(tmp_path, 
     file = tmp_path / "bad.mp4"
     file.write_bytes({"truncated": whole[: len(whole) // 2], "text": b"no video", "empty": b""}[content])
     with pytest.raises(InputError, match=r"Meth=.*bad\.mp4: the video cannot be read whole") as error:
-        copied(Source("Meth", "hall", file), tmp_path / "page")
+        copied(SourceVideo("Meth", "hall", file), tmp_path / "page")
     assert "\n" not in str(error.value)
 
 
@@ -84,12 +84,12 @@ def test_a_video_that_is_cut_short_after_its_index_is_found_too(tmp_path):
     cut = tmp_path / "cut.mp4"
     cut.write_bytes(whole.read_bytes()[: whole.stat().st_size // 2])
     with pytest.raises(InputError, match="cannot be read whole"):
-        copied(Source("x", "hall", cut), tmp_path / "page")
+        copied(SourceVideo("x", "hall", cut), tmp_path / "page")
 
 
 def test_the_same_video_twice_is_refused(tmp_path):
     source = clip(tmp_path / "x" / "hall.mp4")
-    videos = [copied(Source(method, "hall", source), tmp_path / "page") for method in ("a", "b")]
+    videos = [copied(SourceVideo(method, "hall", source), tmp_path / "page") for method in ("a", "b")]
     with pytest.raises(InputError, match=r"\(a\) and .*\(b\) are the same video"):
         without_twins(videos)
 
@@ -97,7 +97,9 @@ def test_the_same_video_twice_is_refused(tmp_path):
 def test_other_sizes_and_lengths_are_named(tmp_path):
     sizes = {"a": ("64x36", 0.4), "b": ("32x18", 0.4), "c": ("64x36", 1.0)}
     videos = {
-        method: copied(Source(method, "hall", clip(tmp_path / f"{method}.mp4", size=size, seconds=seconds)), tmp_path / "page")
+        method: copied(
+            SourceVideo(method, "hall", clip(tmp_path / f"{method}.mp4", size=size, seconds=seconds)), tmp_path / "page"
+        )
         for method, (size, seconds) in sizes.items()
     }
     assert telling_differences([videos["a"]]) == []

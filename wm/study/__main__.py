@@ -19,7 +19,7 @@ from wm.study.folder import make_study, open_study
 from wm.study.questions import read_questions
 from wm.study.results import write_results
 from wm.study.serve import server
-from wm.study.sessions import Plan
+from wm.study.sessions import StudyPlan
 from wm.study.words import Words, sorted_words
 
 BAD_INPUT = 2
@@ -53,12 +53,12 @@ def _make(words: Words) -> None:
     if not words.methods or not words.text("output", ""):
         raise InputError("make wants METHOD=VIDEO_OR_FOLDER at least once, and output=FOLDER")
     output = pathlib.Path(words.options["output"])
-    plan = Plan(
-        participants=words.number("participants", Plan.participants, least=1) or 1,
-        ratings=words.number("ratings", None),
-        pairs=words.number("pairs", None),
+    plan = StudyPlan(
+        participants=words.number("participants", StudyPlan.participants, least=1),
+        ratings=words.number("ratings", 0) if "ratings" in words.options else None,
+        pairs=words.number("pairs", 0) if "pairs" in words.options else None,
         reference=words.options.get("reference"),
-        seed=words.number("seed", 0) or 0,
+        seed=words.number("seed", 0),
     )
     for line in make_study(words.methods, output, read_questions(words.text("questions", "comparison")), plan):
         console.warn(f"wm.study: {line}")
@@ -88,7 +88,7 @@ def _analyse(words: Words) -> None:
     for line in read.refused:
         console.warn(f"wm.study: {line}")
     output = pathlib.Path(words.text("output", str(study.folder / "results")))
-    found = analyse(study, read, seed=words.number("seed", 0) or 0, resamples=words.number("resamples", 10_000, least=100) or 100)
+    found = analyse(study, read, seed=words.number("seed", 0), resamples=words.number("resamples", 10_000, least=100))
     write_results(study, found, output)
     figures = f"participants counted: {found.counted}, excluded: {len(found.excluded)}; files refused: {len(read.refused)}"
     console.say(f"{output / 'results.md'}: {figures}")

@@ -10,19 +10,19 @@ sums and n their sum. The difference d_ck is 0 or 1 for names; for ranks it is t
 Source: Krippendorff, Computing Krippendorff's Alpha-Reliability, University of Pennsylvania, 2011.
 """
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Literal
 
 import numpy as np
 from jaxtyping import Float
 
 
-def krippendorff_alpha(units: Iterable[Sequence[Hashable]], level: Literal["nominal", "ordinal"]) -> float | None:
+def krippendorff_alpha(units: Iterable[Sequence[int] | Sequence[str]], level: Literal["nominal", "ordinal"]) -> float | None:
     """The agreement of raters.
 
     Args:
       units: for each thing that was rated, the values that its raters gave, in any order. Raters may have left things out.
-      level: whether values are names, or ranks (which Python can sort).
+      level: whether values are names, or ranks in Python's order.
 
     Returns:
       Alpha, at most 1; None where it is undefined: no unit has two values, or all values are the same.

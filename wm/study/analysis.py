@@ -14,7 +14,7 @@ from wm.study.tallies import Choice, Rating, choices_of, ratings_of
 
 
 @dataclass(frozen=True)
-class Agreement:
+class RaterAgreement:
     """How far the answers to one question agree."""
 
     question: str
@@ -31,7 +31,7 @@ class Findings:
     excluded: tuple[tuple[Sheet, str], ...]  # with the reason
     ratings: dict[tuple[str, str], Estimate]  # by method and question
     preferences: dict[tuple[str, str], Estimate]  # share that chose the first of two methods
-    agreement: tuple[Agreement, ...]
+    agreement: tuple[RaterAgreement, ...]
     left: Estimate  # share of the pairs in which the left video was chosen: 0.5 where sides do not matter
     rated: tuple[Rating, ...]
     chosen: tuple[Choice, ...]
@@ -93,18 +93,20 @@ def _participants(chosen: Sequence[Choice]) -> int:
     return len({choice.participant for choice in chosen})
 
 
-def _rating_agreement(study: Study, rated: Sequence[Rating]) -> list[Agreement]:
+def _rating_agreement(study: Study, rated: Sequence[Rating]) -> list[RaterAgreement]:
     units: dict[str, dict[tuple[str, str], list[int]]] = defaultdict(lambda: defaultdict(list))
     for rating in rated:
         units[rating.question][rating.method, rating.scene].append(rating.value)
     found = []
     for question in study.questions.ratings:
         values = list(units[question.id].values())
-        found.append(Agreement(question.id, "ordinal", krippendorff_alpha(values, "ordinal"), sum(len(v) > 1 for v in values)))
+        found.append(
+            RaterAgreement(question.id, "ordinal", krippendorff_alpha(values, "ordinal"), sum(len(v) > 1 for v in values))
+        )
     return found
 
 
-def _choice_agreement(study: Study, chosen: Sequence[Choice]) -> list[Agreement]:
+def _choice_agreement(study: Study, chosen: Sequence[Choice]) -> list[RaterAgreement]:
     """Over pairs, with the method that was chosen as the value."""
     if not study.questions.preference:
         return []
@@ -112,4 +114,4 @@ def _choice_agreement(study: Study, chosen: Sequence[Choice]) -> list[Agreement]
     for choice in chosen:
         units[choice.scene, *sorted((choice.chosen, choice.other))].append(choice.chosen)
     values = list(units.values())
-    return [Agreement("preference", "nominal", krippendorff_alpha(values, "nominal"), sum(len(v) > 1 for v in values))]
+    return [RaterAgreement("preference", "nominal", krippendorff_alpha(values, "nominal"), sum(len(v) > 1 for v in values))]

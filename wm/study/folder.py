@@ -22,8 +22,8 @@ from wm.artifacts.atomic import write_atomically
 from wm.errors import InputError
 from wm.stages.progress import progress
 from wm.study.questions import QuestionSet, questions_from
-from wm.study.sessions import Plan, Trial, plan_sessions, reference_of
-from wm.study.videos import Video, copied, matched, telling_differences, without_twins
+from wm.study.sessions import StudyPlan, Trial, plan_sessions, reference_of
+from wm.study.videos import StudyVideo, copied, matched, telling_differences, without_twins
 
 VERSION = 1
 PAGE_FILES = ("index.html", "study.css", "study.js")
@@ -52,7 +52,7 @@ class Study:
     sessions: tuple[tuple[Trial, ...], ...]
 
 
-def make_study(methods: Mapping[str, pathlib.Path], output: pathlib.Path, questions: QuestionSet, plan: Plan) -> list[str]:
+def make_study(methods: Mapping[str, pathlib.Path], output: pathlib.Path, questions: QuestionSet, plan: StudyPlan) -> list[str]:
     """Writes the folder of a study; the same arguments give the same bytes.
 
     Args:
@@ -85,8 +85,8 @@ def make_study(methods: Mapping[str, pathlib.Path], output: pathlib.Path, questi
     return lines + telling_differences(videos)
 
 
-def _only(videos: list[Video], folder: pathlib.Path) -> None:
-    """Removes videos of an earlier call, and gives all the same date, since they were written by method."""
+def _only(videos: list[StudyVideo], folder: pathlib.Path) -> None:
+    """Removes videos of an earlier call, and gives all one date: they were written method by method."""
     names = {f"{video.name}.mp4" for video in videos}
     for file in folder.glob("*.mp4"):
         if file.name in names:
@@ -96,18 +96,24 @@ def _only(videos: list[Video], folder: pathlib.Path) -> None:
 
 
 def _write(
-    output: pathlib.Path, videos: list[Video], questions: QuestionSet, reference: str, plan: Plan, sessions: list[list[Trial]]
+    output: pathlib.Path,
+    videos: list[StudyVideo],
+    questions: QuestionSet,
+    reference: str,
+    plan: StudyPlan,
+    sessions: list[list[Trial]],
 ) -> None:
-    shown = {key: value for key, value in questions.as_json().items() if key not in ("paper", "pairs", "checks")}
-    sizes = {video.name: [video.width, video.height] for video in sorted(videos, key=lambda video: video.name)}
-    page = {"version": VERSION, **shown, "videos": sizes, "sessions": [[trial.as_json() for trial in one] for one in sessions]}
-    page["study"] = hashlib.sha256(json.dumps(page, sort_keys=True).encode()).hexdigest()[:12]
+    page = _for_participants(videos, questions, sessions)
     key = {
-        "version": VERSION, "study": page["study"], "questions": questions.as_json(), "reference": reference, "plan": asdict(plan),
+        "version": VERSION,
+        "study": page["study"],
+        "questions": questions.as_json(),
+        "reference": reference,
+        "plan": asdict(plan),
         "methods": list(dict.fromkeys(video.method for video in videos)),
         "videos": {video.name: {"method": video.method, "scene": video.scene, "source": video.source} for video in videos},
         "sessions": page["sessions"],
-    }  # fmt: skip
+    }
     own = importlib.resources.files("wm.study")
     for name in PAGE_FILES:
         write_atomically(output / "page" / name, (own / "page" / name).read_bytes())
@@ -116,6 +122,14 @@ def _write(
     write_atomically(output / "README.txt", _ABOUT)
     write_atomically(output / "key.json", json.dumps(key, indent=1) + "\n")
     (output / "answers").mkdir(exist_ok=True)
+
+
+def _for_participants(videos: list[StudyVideo], questions: QuestionSet, sessions: list[list[Trial]]) -> dict[str, Any]:
+    """What the page knows: texts, sizes of videos in the order of their names, and sessions; nothing of methods."""
+    shown = {key: value for key, value in questions.as_json().items() if key not in ("paper", "pairs", "checks")}
+    sizes = {video.name: [video.width, video.height] for video in sorted(videos, key=lambda video: video.name)}
+    page = {"version": VERSION, **shown, "videos": sizes, "sessions": [[trial.as_json() for trial in one] for one in sessions]}
+    return page | {"study": hashlib.sha256(json.dumps(page, sort_keys=True).encode()).hexdigest()[:12]}
 
 
 def open_study(folder: pathlib.Path) -> Study:

@@ -129,7 +129,7 @@ _AGREEMENT_WORDS = (
 )
 
 
-def _csv_tables(study: Study, found: Findings) -> dict[str, tuple[Sequence[str], list[Sequence[Any]]]]:
+def _csv_tables(study: Study, found: Findings) -> dict[str, tuple[Sequence[str], Sequence[Sequence[Any]]]]:
     interval = ("low", "high", "answers", "participants", "paper")
     ratings = [
         (method, question, *_numbers(estimate), _paper(study, method, question))

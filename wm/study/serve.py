@@ -25,7 +25,7 @@ def server(study: pathlib.Path, host: str = "127.0.0.1", port: int = 8765) -> ht
         with contextlib.suppress(*BROKEN):
             issued[json.loads(file.read_bytes())["slot"]] += 1
 
-    class Handler(http.server.SimpleHTTPRequestHandler):
+    class StudyHandler(http.server.SimpleHTTPRequestHandler):
         def do_GET(self):
             asked = re.fullmatch(r"bytes=(\d+)-(\d*)", self.headers.get("Range", ""))
             path = pathlib.Path(self.translate_path(self.path))
@@ -86,8 +86,8 @@ def server(study: pathlib.Path, host: str = "127.0.0.1", port: int = 8765) -> ht
             pass
 
     text = {f".{end}": f"text/{kind}; charset=utf-8" for end, kind in (("html", "html"), ("css", "css"), ("js", "javascript"))}
-    Handler.extensions_map = {"": "application/octet-stream", ".mp4": "video/mp4", **text}
-    return http.server.ThreadingHTTPServer((host, port), lambda *asked: Handler(*asked, directory=str(page)))
+    StudyHandler.extensions_map = {"": "application/octet-stream", ".mp4": "video/mp4", **text}
+    return http.server.ThreadingHTTPServer((host, port), lambda *asked: StudyHandler(*asked, directory=str(page)))
 
 
 if __name__ == "__main__":

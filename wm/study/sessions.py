@@ -33,7 +33,7 @@ class Trial:
 
 
 @dataclass(frozen=True)
-class Plan:
+class StudyPlan:
     """How many sessions, and how long they are. None: two videos of each method; every pair of methods once."""
 
     participants: int = 60
@@ -43,7 +43,7 @@ class Plan:
     seed: int = 0
 
 
-def reference_of(methods: Sequence[str], plan: Plan) -> str:
+def reference_of(methods: Sequence[str], plan: StudyPlan) -> str:
     """The method that the others are compared with.
 
     Raises:
@@ -56,7 +56,7 @@ def reference_of(methods: Sequence[str], plan: Plan) -> str:
     return next((method for method in methods if method.lower() == "ours"), methods[0])
 
 
-def plan_sessions(names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: Plan) -> list[list[Trial]]:
+def plan_sessions(names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: StudyPlan) -> list[list[Trial]]:
     """The pages of every session, the same for the same arguments.
 
     Args:
@@ -73,7 +73,9 @@ def plan_sessions(names: Mapping[str, Mapping[str, str]], questions: QuestionSet
     return [[*_with_checks(one, questions, rng), *_with_side_checks(two, questions, rng)] for one, two in zip(rated, compared)]
 
 
-def _rated(names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: Plan, rng: random.Random) -> list[list[Trial]]:
+def _rated(
+    names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: StudyPlan, rng: random.Random
+) -> list[list[Trial]]:
     strata = [tuple(scenes.values()) for scenes in names.values()] if questions.ratings else []
     each = _length("ratings", plan.ratings, 2 * len(strata), sum(map(len, strata)), at_least=int(bool(strata)))
     hands = dealt(strata, each, plan.participants, rng)
@@ -81,7 +83,7 @@ def _rated(names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan:
 
 
 def _compared(
-    names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: Plan, rng: random.Random
+    names: Mapping[str, Mapping[str, str]], questions: QuestionSet, plan: StudyPlan, rng: random.Random
 ) -> list[list[Trial]]:
     couples: list[tuple[str, str]] = []
     if questions.preference:

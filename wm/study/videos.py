@@ -30,7 +30,7 @@ _DIGITS = 16  # hexadecimal digits of a video's name
 
 
 @dataclass(frozen=True)
-class Source:
+class SourceVideo:
     """A video as a method has written it."""
 
     method: str
@@ -39,7 +39,7 @@ class Source:
 
 
 @dataclass(frozen=True)
-class Video:
+class StudyVideo:
     """A video of the study."""
 
     name: str  # digest; the file is <name>.mp4
@@ -52,7 +52,7 @@ class Video:
     encoded: bool  # anew, since browsers do not play the original
 
 
-def matched(methods: Mapping[str, pathlib.Path]) -> tuple[list[Source], list[str]]:
+def matched(methods: Mapping[str, pathlib.Path]) -> tuple[list[SourceVideo], list[str]]:
     """The videos of the scenes that all methods have, and the names of scenes that some lack.
 
     Args:
@@ -70,7 +70,7 @@ def matched(methods: Mapping[str, pathlib.Path]) -> tuple[list[Source], list[str
         some = "; ".join(f"{method} has {', '.join(sorted(videos)[:3])}" for method, videos in found.items())
         raise InputError(f"no scene is common to all methods, by the names of their videos: {some}")
     others = sorted(set().union(*found.values()) - common)
-    return [Source(method, scene, found[method][scene]) for scene in sorted(common) for method in methods], others
+    return [SourceVideo(method, scene, found[method][scene]) for scene in sorted(common) for method in methods], others
 
 
 def _of(method: str, path: pathlib.Path) -> dict[str, pathlib.Path]:
@@ -89,7 +89,7 @@ def _of(method: str, path: pathlib.Path) -> dict[str, pathlib.Path]:
     return videos
 
 
-def copied(source: Source, folder: pathlib.Path) -> Video:
+def copied(source: SourceVideo, folder: pathlib.Path) -> StudyVideo:
     """Copies a video into a folder under the digest of its bytes, without what tells the method.
 
     Raises:
@@ -103,10 +103,10 @@ def copied(source: Source, folder: pathlib.Path) -> Video:
         content = copy.read_bytes()
     name = hashlib.sha256(content).hexdigest()[:_DIGITS]
     write_atomically(folder / f"{name}.mp4", content)
-    return Video(name, source.method, source.scene, str(source.path), width, height, seconds, not plays)
+    return StudyVideo(name, source.method, source.scene, str(source.path), width, height, seconds, not plays)
 
 
-def _properties(source: Source) -> tuple[int, int, float, bool]:
+def _properties(source: SourceVideo) -> tuple[int, int, float, bool]:
     """Width, height, seconds, and whether browsers play it. Decodes every frame, so that a damaged file is found here."""
     said = _ffmpeg(source, ["-i", str(source.path), "-map", "0:v:0", "-f", "null", "-"], level="info")
     stream = re.search(r"Stream #0.*?Video: (\w+)[^,]*, (\w+)[^\n]*?, (\d+)x(\d+)", said)
@@ -119,7 +119,7 @@ def _properties(source: Source) -> tuple[int, int, float, bool]:
     return int(stream[3]), int(stream[4]), length, plays
 
 
-def _ffmpeg(source: Source, arguments: list[str], level: str = "error") -> str:
+def _ffmpeg(source: SourceVideo, arguments: list[str], level: str = "error") -> str:
     command = [imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-nostdin", "-hide_banner", "-loglevel", level, "-xerror", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
     if done.returncode:
@@ -128,21 +128,21 @@ def _ffmpeg(source: Source, arguments: list[str], level: str = "error") -> str:
     return done.stderr
 
 
-def without_twins(videos: Sequence[Video]) -> None:
+def without_twins(videos: Sequence[StudyVideo]) -> None:
     """Refuses videos that are the same, byte for byte.
 
     Raises:
       InputError: two are; the message names both.
     """
-    seen: dict[str, Video] = {}
+    seen: dict[str, StudyVideo] = {}
     for video in videos:
         if (twin := seen.setdefault(video.name, video)) is not video:
             raise InputError(f"{twin.source} ({twin.method}) and {video.source} ({video.method}) are the same video")
 
 
-def telling_differences(videos: Iterable[Video]) -> list[str]:
+def telling_differences(videos: Iterable[StudyVideo]) -> list[str]:
     """A line for each scene whose videos differ in size or length, by which participants can tell methods apart."""
-    scenes: dict[str, list[Video]] = {}
+    scenes: dict[str, list[StudyVideo]] = {}
     for video in videos:
         scenes.setdefault(video.scene, []).append(video)
     lines = []

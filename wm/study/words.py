@@ -20,8 +20,8 @@ class Words:
         """An option, or what stands for it."""
         return self.options.get(key, default)
 
-    def number(self, key: str, default: int | None, *, least: int = 0) -> int | None:
-        """An option that is a whole number.
+    def number(self, key: str, default: int, *, least: int = 0) -> int:
+        """An option that is a whole number, or what stands for it.
 
         Raises:
           InputError: it is none, or smaller than `least`.
