@@ -20,7 +20,6 @@ from wm.compare.errors import CompareError
 from wm.compare.records import ComparedScene
 from wm.compare.trajectories import Picture, Trajectory, kind_of, path_of
 from wm.geometry.rays.pinhole import camera_center, camera_rays, make_camera
-from wm.types import Camera
 
 HEADINGS = 36  # directions that are told apart
 THUMBNAIL = 48  # pixels across of the pictures by which the scene is surveyed
@@ -46,7 +45,7 @@ class ForeignPaths:
     @functools.cached_property
     def eye(self) -> np.ndarray:
         """The place from which the scene is surveyed: of its own cameras the innermost, else where its maker looked from, else
-        the middle of the box that holds nine tenths of it."""
+        the most open of nine places about the middle of the box that holds nine tenths of it."""
         if self._scene.cameras:
             centers = np.array([camera_center(camera) for camera in self._scene.cameras])
             return centers[np.argmin(np.linalg.norm(centers - np.median(centers, axis=0), axis=1))]
@@ -54,7 +53,10 @@ class ForeignPaths:
             return np.asarray(self._scene.eye, np.float64)
         points = np.asarray(self._scene.gaussians.means if self._scene.gaussians is not None else self._vertices, np.float64)
         points = points[np.isfinite(points).all(axis=1)] @ np.asarray(self._scene.R_world_file).T
-        return np.quantile(points, [0.05, 0.95], axis=0).mean(axis=0)
+        low, high = np.quantile(points, [0.05, 0.95], axis=0)
+        shares = np.array([(x, y, 0.5) for x in (0.5, 0.35, 0.65) for y in (0.5, 0.35, 0.65)])
+        spots = low + shares * (high - low)
+        return spots[np.argmax([float(np.median(self._survey(spot))) for spot in spots])]
 
     @property
     def _vertices(self) -> np.ndarray:
@@ -64,24 +66,26 @@ class ForeignPaths:
     @functools.cached_property
     def free(self) -> np.ndarray:
         """[HEADINGS] how far the air is free in each direction, in the scene's unit; 0 where nothing is seen."""
-        nearest = [[] for _ in range(HEADINGS)]
+        found = self._survey(self.eye)
+        if not found.any():
+            raise CompareError(f"{self._scene.method}: nothing is to be seen from {self.eye.round(2).tolist()}, its middle")
+        return found
+
+    def _survey(self, eye: np.ndarray) -> np.ndarray:
+        nearest: list[list[float]] = [[] for _ in range(HEADINGS)]
         for k in range(8):
-            camera = self._level(2 * math.pi * k / 8)
+            heading = 2 * math.pi * k / 8
+            ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
+            camera = make_camera(eye, eye + ahead, width=THUMBNAIL, height=THUMBNAIL, fov_deg=60.0)
             render = self._draw(camera)
             rays = camera_rays(camera)
             length = np.linalg.norm(rays, axis=1)
             seen = (np.asarray(render.alpha).reshape(-1) >= HOLE) & (np.abs(np.arcsin(rays[:, 2] / length)) < BAND)
-            heading = np.round(np.arctan2(rays[:, 1], rays[:, 0]) / (2 * math.pi) * HEADINGS).astype(int) % HEADINGS
+            index = _heading(rays)
             distance = np.asarray(render.depth, np.float64).reshape(-1) * np.hypot(rays[:, 0], rays[:, 1])
-            for index in np.unique(heading):
-                nearest[index] += distance[seen & (heading == index)].tolist()
-        if not any(nearest):
-            raise CompareError(f"{self._scene.method}: nothing is to be seen from {self.eye.round(2).tolist()}, its middle")
+            for k in np.unique(index):
+                nearest[k] += distance[seen & (index == k)].tolist()
         return np.array([float(np.quantile(values, 0.1)) if values else 0.0 for values in nearest])
-
-    def _level(self, heading: float) -> Camera:
-        ahead = np.array([math.cos(heading), math.sin(heading), 0.0])
-        return make_camera(self.eye, self.eye + ahead, width=THUMBNAIL, height=THUMBNAIL, fov_deg=60)
 
     def _things(self) -> list[int]:
         """Headings in which something stands, nearest first, at least APART from each other."""
@@ -116,8 +120,7 @@ class ForeignPaths:
     def _is_free(self, places: np.ndarray) -> np.ndarray:
         """Whether each place is seen to be free from the middle."""
         away = places - self.eye
-        heading = np.round(np.arctan2(away[:, 1], away[:, 0]) / (2 * math.pi) * HEADINGS).astype(int) % HEADINGS
-        return np.hypot(away[:, 0], away[:, 1]) <= SAFE * self.free[heading]
+        return np.hypot(away[:, 0], away[:, 1]) <= SAFE * self.free[_heading(away)]
 
     def _checked(self, eyes: np.ndarray, name: str) -> np.ndarray:
         if len(eyes) < 2:
@@ -144,6 +147,11 @@ class ForeignPaths:
         ahead = _direction(heading)
         eyes = self.eye + np.linspace(0, SAFE * self.free[heading], 25)[:, None] * ahead
         return eyes, eyes + ahead
+
+
+def _heading(directions: np.ndarray) -> np.ndarray:
+    """[n] which of the HEADINGS is nearest to directions [n, 3]."""
+    return np.round(np.arctan2(directions[:, 1], directions[:, 0]) / (2 * math.pi) * HEADINGS).astype(int) % HEADINGS
 
 
 def _direction(heading: int) -> np.ndarray:

@@ -16,7 +16,7 @@ from wm.compare.errors import CompareError
 from wm.compare.trajectories import Picture, Trajectory, kind_of, path_of
 from wm.errors import InputError
 from wm.finished import FinishedRun
-from wm.geometry import portals
+from wm.geometry import cast_rays, portals
 from wm.geometry.cameras.air import RoomAir, free, room_air
 from wm.types import SceneObject
 
@@ -28,6 +28,7 @@ NEAREST = 0.25  # the same before an object that is looked at closely
 PACE = 0.05  # metres between places of a straight path that are tried
 SMALL = 0.3  # metres: smaller objects are not walked round
 BACK, REACH = 1.2, 1.4  # metres from which an object is approached, and that are walked on either side of a door
+AHEAD = 1.0  # metres before what a way along a room ends at
 SPOTS = 60  # free places of a room between which the longest way is looked for
 
 
@@ -144,8 +145,14 @@ class RunPaths:
             line = np.linspace(start, end, math.ceil(lengths[k] / PACE))
             inside = bool(shapely.covers(air.floor, shapely.LineString(line[:, :2])))
             if inside and free(air.scene, line, min(air.clearance, CLEARANCE)).all():
-                return start, end
+                return start, start + (end - start) * (1 - self._too_far(start, end))
         return None
+
+    def _too_far(self, start: np.ndarray, end: np.ndarray) -> float:
+        """Share of a way to leave out, so that it ends AHEAD before what stands there; at most half."""
+        length = float(np.linalg.norm(end - start))
+        hit = float(cast_rays(self._run.rays, end[None], (end - start)[None] / length).t[0])
+        return min(max(0.0, AHEAD - hit) / length, 0.5)
 
     def _door(self, number: int) -> tuple[np.ndarray, np.ndarray]:
         ways = [portal for portal in portals(self._run.plan) if portal.is_way]

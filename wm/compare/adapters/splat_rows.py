@@ -21,7 +21,7 @@ def read_splat(path: pathlib.Path) -> Gaussians:
     if len(raw) % ROW.itemsize:
         raise ValueError(f"{path}: {len(raw)} bytes are no whole number of rows of {ROW.itemsize} bytes")
     rows = np.frombuffer(raw, ROW)
-    color = (rows["color"].astype(np.float64) + 0.5) / 256
+    color = np.minimum((rows["color"].astype(np.float64) + 0.5) / 255, 254.5 / 255)
     quats = (rows["quat"].astype(np.float64) + 0.5 - 128) / 128
     with np.errstate(divide="ignore"):
         log_scales = np.log(rows["extent"].astype(np.float64))
