@@ -25,7 +25,7 @@ VERSION = 1
 
 def measure(
     trajectory: Trajectory, draw: Drawer, store: Store, method: str, picture: Picture, done: Callable[[], object]
-) -> dict[str, float | None]:
+) -> dict[str, float | int | None]:
     """Renders a trajectory, writes its video and cameras, and returns its figures by key.
 
     Args:
@@ -51,7 +51,7 @@ def measure(
     }
 
 
-def figures_of(frames: Sequence[Frame]) -> dict[str, float | None]:
+def figures_of(frames: Sequence[Frame]) -> dict[str, float | int | None]:
     """What the frames of a path tell of the scene's consistency, by key. A figure that nothing tells is None."""
     pairs = list(zip(frames, frames[STEP:])) or list(itertools.pairwise(frames))
     parts: list[Consistency] = list(in_order(lambda pair: consistency(*pair), pairs))

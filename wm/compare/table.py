@@ -12,7 +12,7 @@ from tabulate import tabulate
 from wm.compare.paper import PAPER
 from wm.metric_table import MISSING, Metric
 
-Figures = Mapping[str, float | None]
+Figures = Mapping[str, float | int | None]
 
 COLUMNS = (
     Metric("reproj_mae_norm", "MAE-norm", "", ".4f", "lower",
@@ -49,7 +49,7 @@ class MethodRow:
     figures: Figures
 
 
-def summary(measured: Sequence[Figures]) -> dict[str, float | None]:
+def summary(measured: Sequence[Figures]) -> dict[str, float | int | None]:
     """The figures of a method over its trajectories: means; times together; the highest memory; MAE over one scale."""
     keys = {key for figures in measured for key in figures} - {"frames", "render_seconds", "reproj_mae", "reproj_depth"}
     means = {key: _mean([figures.get(key) for figures in measured]) for key in keys - _COSTS}
@@ -63,7 +63,7 @@ def summary(measured: Sequence[Figures]) -> dict[str, float | None]:
     }
 
 
-def _mean(values: Sequence[float | None]) -> float | None:
+def _mean(values: Sequence[float | int | None]) -> float | None:
     known = [value for value in values if value is not None]
     return float(np.mean(known)) if known else None
 
@@ -84,14 +84,14 @@ def markdown(rows: Sequence[MethodRow]) -> str:
     return tabulate(lines, headings, tablefmt="github", disable_numparse=True) + "\n"
 
 
-def _best(values: Sequence[float | None], metric: Metric) -> float | None:
+def _best(values: Sequence[float | int | None], metric: Metric) -> float | int | None:
     known = {value for value in values if value is not None}
     if len(known) < 2:
         return None
     return max(known) if metric.better == "higher" else min(known)
 
 
-def _cell(value: float | None, metric: Metric, best: float | None) -> str:
+def _cell(value: float | int | None, metric: Metric, best: float | int | None) -> str:
     if value is None:
         return MISSING
     text = metric.number(value)

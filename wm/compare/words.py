@@ -96,9 +96,9 @@ def _picture(settings: dict[str, str]) -> Picture:
     return Picture(
         width=width,
         height=height,
-        fov=_number(settings, "fov", 60.0, 5, 150),
-        frames=int(_number(settings, "frames", 60, 2, 100_000)),
-        fps=int(_number(settings, "fps", 24, 1, 240)),
+        fov=_angle(settings.get("fov", "60")),
+        frames=_whole(settings, "frames", 60, 2, 100_000),
+        fps=_whole(settings, "fps", 24, 1, 240),
     )
 
 
@@ -109,17 +109,18 @@ def _size(text: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
-def _number(settings: dict[str, str], name: str, default: float, low: float, high: float) -> float:
-    text = settings.get(name)
-    if text is None:
-        return default
+def _whole(settings: dict[str, str], name: str, default: int, low: int, high: int) -> int:
+    text = settings.get(name, str(default))
+    if not (text.isascii() and text.isdigit() and low <= int(text) <= high):
+        raise CompareError(f"{name}={text}: a whole number from {low} to {high} would be right")
+    return int(text)
+
+
+def _angle(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
         value = float("nan")
-    whole = name == "fov" or value == int(value) if value == value and abs(value) < 1e9 else False
-    if not (low <= value <= high and whole):
-        raise CompareError(
-            f"{name}={text}: a {'number' if name == 'fov' else 'whole number'} from {low:g} to {high:g} would be right"
-        )
+    if not 5 <= value <= 150:
+        raise CompareError(f"fov={text}: degrees from 5 to 150 would be right")
     return value
