@@ -225,6 +225,9 @@ class NavigationSettings:
 @dataclass(kw_only=True, unsafe_hash=True)
 class EvaluateConfig:
     min_overlap: float = number(0.3, 0, 1, "Share of shared surface for a reprojection pair.")
+    quality: str | None = setting(
+        None, "Folder with the weights of CLIP-IQA+ and the aesthetic score; null: they are not measured.", **READ, **BESIDE
+    )
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
