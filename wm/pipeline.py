@@ -28,6 +28,7 @@ from wm.geometry.plan.loading import read_plan_file
 from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.metric_table import METRICS
+from wm.quality import check_quality
 from wm.schema import STAGES, RunConfig
 from wm.services.ledger import Ledger
 from wm.splat.optimization.padding import Capacity
@@ -70,7 +71,10 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     prepare_process()
     check_targets(config.export)
     if config.plan.file is not None:
-        read_plan_file(config.plan.file)  # raises before a folder is made
+        # raises before a folder is made
+        read_plan_file(config.plan.file, repair=config.plan.repair, unreachable=config.plan.unreachable)
+    if config.evaluate.quality is not None:
+        check_quality(config.evaluate.quality)
     meter = StageMeter(keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
     lend = Neighbours(neighbours, say=console.say, account=account).lend

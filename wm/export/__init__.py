@@ -6,5 +6,6 @@
     records       ExportError, Check
     navmesh       where a body can walk
     scaffold      scaffold.glb: rooms, furniture, lights and cameras
+    simulation/   the house for simulators: MJCF, URDF, OpenUSD
     words         words of a command line: a folder, and keys with their values
 """

@@ -51,8 +51,11 @@ class ExportTarget:
 
 
 TARGETS: dict[str, ExportTarget] = {
+    "mjcf": ExportTarget("wm.export.simulation.mjcf", "the house for MuJoCo, furniture as bodies", "simulation"),
     "navmesh": ExportTarget("wm.export.navmesh", "where a body can walk, as triangles: JSON and GLB"),
     "scaffold": ExportTarget("wm.export.scaffold", "the textured building and its furniture: GLB with lights and cameras"),
+    "urdf": ExportTarget("wm.export.simulation.urdf", "the house as a robot description", "simulation"),
+    "usd": ExportTarget("wm.export.simulation.usd", "OpenUSD: scaffold, splats, colliders, masses, labels", "simulation"),
 }
 
 
