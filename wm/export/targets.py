@@ -56,6 +56,7 @@ TARGETS: dict[str, ExportTarget] = {
     "scaffold": ExportTarget("wm.export.scaffold", "the textured building and its furniture: GLB with lights and cameras"),
     "urdf": ExportTarget("wm.export.simulation.urdf", "the house as a robot description", "simulation"),
     "usd": ExportTarget("wm.export.simulation.usd", "OpenUSD: scaffold, splats, colliders, masses, labels", "simulation"),
+    "world": ExportTarget("wm.export.world", "rooms, openings, objects and spawn points: JSON with a schema"),
 }
 
 

@@ -36,13 +36,16 @@ def simulated(run: FinishedRun) -> House:
     empty = [thing.id for thing in run.objects if not _has_surface(thing.vertices, thing.faces)]
     if empty:
         raise ExportError(f"{run.folder}: {', '.join(empty)}: an object without a surface can have no mass")
-    taken = identifiers(["House", "Looks", "exterior", *run.rooms, *(thing.id for thing in run.objects)])
+    rooms, names = house_names(run)
     return House(
-        bodies=tuple(rigid_body(thing) for thing in run.objects),
-        names=tuple(taken[3 + len(run.rooms) :]),
-        rooms=tuple(taken[3 : 3 + len(run.rooms)]),
-        parts=tuple(house_parts(run)),
+        bodies=tuple(rigid_body(thing) for thing in run.objects), names=names, rooms=rooms, parts=tuple(house_parts(run))
     )
+
+
+def house_names(run: FinishedRun) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The identifiers of the rooms, and those of the objects."""
+    taken = identifiers(["House", "Looks", "exterior", *run.rooms, *(thing.id for thing in run.objects)])
+    return tuple(taken[3 : 3 + len(run.rooms)]), tuple(taken[3 + len(run.rooms) :])
 
 
 def _has_surface(vertices: np.ndarray, faces: np.ndarray) -> bool:
