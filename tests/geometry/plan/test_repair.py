@@ -43,7 +43,7 @@ def _turned(room: Room, turn: np.ndarray) -> Room:
     return dataclasses.replace(room, polygon=room.polygon @ turn, openings=openings)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
     st.lists(st.floats(0.01, 0.5), min_size=2, max_size=2),
     st.lists(st.floats(0.01, 0.5), min_size=2, max_size=2),
@@ -62,7 +62,7 @@ def test_rooms_cut_apart_by_any_gaps_become_one_building(x, y, angle):
     assert reading(plan).notes == () and plan_to_json(reading(plan).plan) == plan_to_json(plan)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 10))
 def test_repair_of_a_valid_plan_changes_nothing(seed, rooms):
     plan = random_plan(seed, rooms)

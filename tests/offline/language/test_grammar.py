@@ -55,7 +55,7 @@ def test_rooms_are_wide_enough_and_those_one_lives_in_have_windows(theme, rooms,
 
 
 @hypothesis.given(st.sampled_from(THEMES), programmes, seeds)
-@hypothesis.settings(max_examples=12, deadline=None)
+@hypothesis.settings(max_examples=6, deadline=None)
 def test_a_house_has_one_entrance_in_a_hall_where_one_has_an_outer_wall(theme, rooms, seed):
     plan = propose_plan(GRAMMAR, theme, rooms, seed=seed, max_iterations=8).plan
     (entrance,) = entrances(plan)
