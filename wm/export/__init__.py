@@ -3,4 +3,5 @@
     __main__  the command line
     targets   TARGETS: the targets by name, and the module of each
     records   ExportError, Check
+    splats    gaussians in the formats that viewers open
 """

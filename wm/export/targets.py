@@ -37,4 +37,11 @@ class ExportTarget:
         return cast(TargetModule, importlib.import_module(self.module))
 
 
-TARGETS: dict[str, ExportTarget] = {}
+TARGETS: dict[str, ExportTarget] = {
+    "compressed_ply": ExportTarget("wm.export.splats.compressed_ply", "gaussians in PlayCanvas's compressed PLY, y up"),
+    "gltf_splats": ExportTarget("wm.export.splats.gltf_splats", "scaffold and gaussians in one GLB (KHR_gaussian_splatting)"),
+    "labelled_ply": ExportTarget("wm.export.splats.labelled_ply", "splats.ply with the room and the object of each gaussian"),
+    "sog": ExportTarget("wm.export.splats.sog", "gaussians in PlayCanvas's SOG, y up", "splats"),
+    "splat": ExportTarget("wm.export.splats.splat", "gaussians in antimatter15's .splat, y up"),
+    "spz": ExportTarget("wm.export.splats.spz", "gaussians in Niantic's SPZ (version 3), y up", "splats"),
+}
