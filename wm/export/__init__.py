@@ -6,5 +6,6 @@
     records       ExportError, Check
     navmesh       where a body can walk
     simulation/   the house for simulators: MJCF, URDF, OpenUSD
+    splats/       gaussians in the formats that viewers open
     words         words of a command line: a folder, and keys with their values
 """
