@@ -1,4 +1,4 @@
-"""The command line: python -m wm.view RUN serves a run's page until Ctrl-C; with folder=OUT it writes the page for any web host."""
+"""The command line: python -m wm.view RUN serves a run's page until Ctrl-C; folder=OUT writes the page for any web host."""
 
 import dataclasses
 import pathlib

@@ -53,7 +53,7 @@ def world_record(run: FinishedRun, navmesh: Mapping[str, Any]) -> dict[str, Any]
 
 
 def _spawn(plan: FloorPlan, room: int, navmesh: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Where a visit of a room begins: on its freest spot, looking where the room is longest; None where nobody can stand in it."""
+    """Where a visit of a room begins: its freest spot, looking where it is longest; None where nobody can stand in it."""
     vertices = np.asarray(navmesh["vertices"], float).reshape(-1, 3)
     triangles = [corners for corners, of in zip(navmesh["triangles"], navmesh["triangle_room"]) if of == room]
     area = shapely.union_all([shapely.Polygon(vertices[corners, :2]) for corners in triangles])

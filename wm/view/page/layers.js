@@ -45,17 +45,36 @@ export class SplatCut {
   }
 }
 
-// The painted scaffold, unlit: its texture is what the image model painted.
+// The scaffold. Rooms have what was painted as their colour and need no light; furniture is lit from above, its forms to be seen.
 export async function scaffoldLayer(url) {
   const bytes = await fetched(url);
   const { scene } = await new GLTFLoader().parseAsync(bytes.buffer, "");
-  return scene;
+  const layer = new THREE.Group();
+  const lamp = new THREE.DirectionalLight(0xffffff, 1.1);
+  lamp.position.set(0.4, 1, 0.7);
+  layer.add(scene, new THREE.HemisphereLight(0xffffff, 0x8d867c, 2.2), lamp);
+  return layer;
 }
 
-function lines(points, color, opacity = 1) {
-  const geometry = new THREE.BufferGeometry().setFromPoints(points);
-  const material = new THREE.LineBasicMaterial({ color, transparent: opacity < 1, opacity });
-  return new THREE.LineSegments(geometry, material);
+// Splats write no depth, so what is drawn over them would shine through walls. Between the two the scaffold's depth is drawn, and
+// nothing of its colour. All three are transparent to three.js, which draws those in the order of their renderOrder.
+const [AFTER_SPLATS, OVER] = [1, 2];
+
+export function hidingLayer(scaffold) {
+  const layer = scaffold.clone();
+  layer.traverse((one) => one.isLight && (one.visible = false));
+  const offset = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 };
+  const material = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true, ...offset });
+  layer.traverse((one) => one.isMesh && Object.assign(one, { material, renderOrder: AFTER_SPLATS }));
+  return layer;
+}
+
+function lines(points, color, opacity) {
+  const geometry = points.isBufferGeometry ? points : new THREE.BufferGeometry().setFromPoints(points);
+  const material = new THREE.LineBasicMaterial({ color, transparent: true, opacity });
+  const made = new THREE.LineSegments(geometry, material);
+  made.renderOrder = OVER;
+  return made;
 }
 
 export function navmeshLayer(navmesh) {
@@ -63,7 +82,9 @@ export function navmeshLayer(navmesh) {
   const corners = navmesh.vertices.map(([x, y, z]) => point([x, y, z + 0.02]));
   const surface = new THREE.BufferGeometry().setFromPoints(navmesh.triangles.flat().map((k) => corners[k]));
   const material = { color: 0x35c2a1, transparent: true, opacity: 0.28, side: THREE.DoubleSide, depthWrite: false };
-  layer.add(new THREE.Mesh(surface, new THREE.MeshBasicMaterial(material)));
+  const floor = new THREE.Mesh(surface, new THREE.MeshBasicMaterial(material));
+  floor.renderOrder = OVER;
+  layer.add(floor);
   layer.add(lines(navmesh.triangles.flatMap(([a, b, c]) => [a, b, b, c, c, a].map((k) => corners[k])), 0x7df0d2, 0.8));
   return layer;
 }
@@ -71,11 +92,10 @@ export function navmeshLayer(navmesh) {
 // The edges of everything solid. The lines are of the scaffold's own meshes.
 export function colliderLayer(scaffold) {
   const layer = new THREE.Group();
-  const material = new THREE.LineBasicMaterial({ color: 0xf0b45a, transparent: true, opacity: 0.75 });
   scaffold.updateMatrixWorld(true);
   scaffold.traverse((one) => {
     if (!one.isMesh) return;
-    const edges = new THREE.LineSegments(new THREE.EdgesGeometry(one.geometry, 20), material);
+    const edges = lines(new THREE.EdgesGeometry(one.geometry, 20), 0xf0b45a, 0.75);
     edges.matrixAutoUpdate = false;
     edges.matrix.copy(one.matrixWorld);
     layer.add(edges);
@@ -94,5 +114,5 @@ export function cameraLayer(cameras) {
     ].map((corner) => new THREE.Vector3(...corner).applyMatrix4(at));
     return [eye, a, eye, b, eye, c, eye, d, a, b, b, c, c, d, d, a];
   });
-  return lines(ends, 0x8ab4ff);
+  return lines(ends, 0x8ab4ff, 0.9);
 }

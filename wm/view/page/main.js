@@ -2,13 +2,15 @@
 import { Plane, Vector3 } from "three";
 import { Keys } from "./keys.js";
 import { Labels } from "./labels.js";
-import { cameraLayer, colliderLayer, fetched, navmeshLayer, scaffoldLayer, SplatCut, splatLayer } from "./layers.js";
+import { cameraLayer, colliderLayer, fetched, hidingLayer, navmeshLayer, scaffoldLayer, SplatCut, splatLayer } from "./layers.js";
 import { Minimap } from "./minimap.js";
 import { Stage } from "./stage.js";
 import { Visitor } from "./visitor.js";
 
 const LONGEST = 0.1; // seconds that one frame may stand for, so that a slow one takes nobody through half a room
 const CUT = 0.35; // metres under the lowest ceiling at which the house is cut open in orbit mode
+const AROUND = 0x161617; // around the house in orbit; on foot what no splat covers is black, as in wm's renders
+const OVERLAYS = ["collider", "navmesh", "cameras"];
 const $ = (id) => document.getElementById(id);
 const json = async (url) => JSON.parse(new TextDecoder().decode(await fetched(url)));
 
@@ -37,7 +39,7 @@ class Viewer {
 
   add(name, layer) {
     this.layers[name] = layer;
-    layer.visible = this.shown[name];
+    layer.visible = this.shown[name] ?? false;
     this.stage.scene.add(layer);
     this.stage.invalidate();
   }
@@ -51,6 +53,8 @@ class Viewer {
     this.labels.scaffold = scaffold;
     this.add("scaffold", scaffold);
     this.add("collider", colliderLayer(scaffold));
+    this.add("hidden", hidingLayer(scaffold));
+    this.toggle("collider", false);
     for (const name of ["scaffold", "collider"]) $(`show-${name}`).disabled = false;
   }
 
@@ -67,11 +71,9 @@ class Viewer {
     const { position, heading } = this.visitor.onMap;
     const { room } = this.visitor;
     this.map.show(position, heading, room);
-    if (room >= 0 && room !== this.roomShown) {
-      $("rooms").value = String(room);
-      $("where").textContent = this.world.rooms[room].name;
-      this.roomShown = room;
-    }
+    if (room >= 0) [$("rooms").value, this.roomShown] = [String(room), room];
+    const place = this.visitor.mode === "orbit" ? "The whole house" : (this.world.rooms[this.roomShown]?.name ?? "");
+    if ($("where").textContent !== place) $("where").textContent = place; // written only when it changes: it is read aloud
     if (!this.visitor.still) $("cameras").value = "";
   }
 
@@ -79,6 +81,7 @@ class Viewer {
     this.shown[name] = on;
     $(`show-${name}`).setAttribute("aria-pressed", String(on));
     if (this.layers[name]) this.layers[name].visible = on;
+    if (this.layers.hidden) this.layers.hidden.visible = OVERLAYS.some((one) => this.shown[one]);
     this.stage.invalidate();
   }
 
@@ -91,6 +94,7 @@ class Viewer {
     for (const one of ["walk", "orbit"]) $(one).setAttribute("aria-pressed", String(one === mode));
     if (open) this.stage.scene.add(this.cut.edit);
     else this.cut.edit.removeFromParent();
+    this.stage.renderer.setClearColor(open ? AROUND : 0);
     this.stage.renderer.clippingPlanes = open ? [new Plane(new Vector3(0, -1, 0), this.height)] : [];
     this.labels.hide();
     this.stage.invalidate();

@@ -17,6 +17,7 @@ export class Minimap {
     const [xs, ys] = [points.map((p) => p[0]), points.map((p) => p[1])];
     const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
     svg.setAttribute("viewBox", [x0 - MARGIN, -y1 - MARGIN, x1 - x0 + 2 * MARGIN, y1 - y0 + 2 * MARGIN].join(" "));
+    svg.style.setProperty("--shape", String((x1 - x0 + 2 * MARGIN) / (y1 - y0 + 2 * MARGIN)));
     this.rooms = world.rooms.map((room) => node("polygon", { points: path(room.polygon), class: "room" }, svg));
     for (const thing of world.objects.filter((one) => one.outline)) {
       node("polygon", { points: path(thing.outline), class: "thing" }, svg);
