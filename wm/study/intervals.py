@@ -26,7 +26,7 @@ def bootstrapped_mean(answers: Iterable[tuple[Hashable, float]], *, seed: int, r
     """The mean of all answers, with an expanded percentile interval over participants.
 
     Participants are drawn with replacement, each with all of their answers, since answers of one person go together. The
-    percentiles are those of a normal distribution at sqrt(n / (n - 1)) times Student's quantile of n - 1 degrees of freedom, since
+    percentiles are those of a normal distribution at sqrt(n / (n - 1)) times Student's quantile (n - 1 degrees of freedom), since
     plain ones are too narrow for few participants (of 8, they cover 88 % and not 95 %).
 
     Args:
