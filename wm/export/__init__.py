@@ -1,6 +1,10 @@
 """What other programs take of a finished run, one module a target: python -m wm.export RUN to=[...].
 
-    __main__  the command line
-    targets   TARGETS: the targets by name, and the module of each
-    records   ExportError, Check
+    __main__      the command line
+    exporting     export, exported_table: several targets of one run
+    targets       TARGETS: the targets by name, and the module of each
+    records       ExportError, Check
+    navmesh       where a body can walk
+    simulation/   the house for simulators: MJCF, URDF, OpenUSD
+    words         words of a command line: a folder, and keys with their values
 """
