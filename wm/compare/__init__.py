@@ -4,6 +4,7 @@
     words                 parse: what its words ask for
     comparison            compare: every method on every trajectory
     adapters              one module for each system whose files are read
+    inputs                what other systems start from, made of a run
     records               Source, System, ComparedScene
     axes                  upright: which way is up
     painted_mesh          see: a textured mesh as rays see it

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from wm import console
 from wm.compare.comparison import TABLE, compare
+from wm.compare.inputs.writing import write_inputs
 from wm.compare.words import parse
 from wm.errors import InputError
 
@@ -16,6 +17,8 @@ tells what it is: a run folder, a .ply, .splat, .glb, .obj. NAME:ADAPTER=PATH gi
 METHOD.up=z  METHOD.antialias=true  METHOD.cameras=transforms.json    for files that do not say
 trajectories=FILE.json     one path of cameras (transforms.json) for all methods, in their own axes with z turned up
 frames=60 size=688x384 fov=60 fps=24
+
+python -m wm.compare inputs RUN [to=[spatialgen,panorama,image]] [output=RUN/export/inputs]    what other systems start from
 """
 BAD_INPUT = 2
 
@@ -26,6 +29,10 @@ def main(words: Sequence[str]) -> int:
         console.say(HELP)
         return 0 if words else BAD_INPUT
     try:
+        if words[0] == "inputs":
+            for folder in write_inputs(words[1:]):
+                console.say(str(folder))
+            return 0
         request = parse(words)
         console.say(compare(request))
         console.say(f"{request.output / TABLE}, videos in {request.output / 'videos'}")
