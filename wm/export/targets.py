@@ -51,6 +51,7 @@ class ExportTarget:
 
 
 TARGETS: dict[str, ExportTarget] = {
+    "collider": ExportTarget("wm.export.collider", "closed solids by room and convex parts by object"),
     "compressed_ply": ExportTarget("wm.export.splats.compressed_ply", "gaussians in PlayCanvas's compressed PLY, y up"),
     "gltf_splats": ExportTarget("wm.export.splats.gltf_splats", "scaffold and gaussians in one GLB (KHR_gaussian_splatting)"),
     "labelled_ply": ExportTarget("wm.export.splats.labelled_ply", "splats.ply with the room and the object of each gaussian"),

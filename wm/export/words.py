@@ -6,7 +6,7 @@ from pathlib import Path
 from wm.errors import InputError
 
 
-class WordsError(InputError):
+class ExportWordsError(InputError):
     """A word that a command does not know; the message says what would be right."""
 
 
@@ -18,7 +18,7 @@ def run_and_words(arguments: Sequence[str], keys: Mapping[str, str]) -> tuple[Pa
       keys: the keys that the command knows, and what each is for.
 
     Raises:
-      WordsError: no folder or more than one is given, or a key is unknown or given twice.
+      ExportWordsError: no folder or more than one is given, or a key is unknown or given twice.
     """
     folders, told = [], {}
     for word in arguments:
@@ -26,14 +26,14 @@ def run_and_words(arguments: Sequence[str], keys: Mapping[str, str]) -> tuple[Pa
         if not sign or Path(word).exists():
             folders.append(word)
         elif key not in keys:
-            raise WordsError(f"there is no key {key!r}; keys are {', '.join(keys)}")
+            raise ExportWordsError(f"there is no key {key!r}; keys are {', '.join(keys)}")
         elif key in told:
-            raise WordsError(f"{key} is given twice")
+            raise ExportWordsError(f"{key} is given twice")
         else:
             told[key] = value
     if len(folders) != 1 or folders[0].startswith("-"):
         given = " and ".join(map(repr, folders)) if folders else "nothing"
-        raise WordsError(f"give the folder of one run, such as outputs/gothic/full/0; {given} was given")
+        raise ExportWordsError(f"give the folder of one run, such as outputs/gothic/full/0; {given} was given")
     return Path(folders[0]), told
 
 
