@@ -225,6 +225,9 @@ class NavigationSettings:
 @dataclass(kw_only=True, unsafe_hash=True)
 class EvaluateConfig:
     min_overlap: float = number(0.3, 0, 1, "Share of shared surface for a reprojection pair.")
+    quality: str | None = setting(
+        None, "Folder with the weights of CLIP-IQA+ and the aesthetic score; null: they are not measured.", **READ, **BESIDE
+    )
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
@@ -319,6 +322,9 @@ class RunConfig:
         True, "Take finished stages over from runs of other variants beside this one, where they are the same.", **BESIDE
     )
     overwrite: bool = setting(False, "A folder made by another configuration is refused unless this is true.", **BESIDE)
+    export: list[str] = field(
+        default_factory=list, metadata={"help": "What to write for other programs: python -m wm.export --help.", **BESIDE}
+    )
     until: str = choice(STAGES[-1], STAGES, "Stage after which the run stops; the same command without it goes on.", **BESIDE)
     executor: str = choice("threads", ("threads",), "What rooms are fitted by, side by side.", **BESIDE)
     workers: int | None = number(

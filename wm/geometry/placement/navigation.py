@@ -52,8 +52,7 @@ def navigability(plan: FloorPlan, objects: Sequence[SceneObject], settings: Navi
     lower than `obstacle_height`; what is lower than STEP is walked over.
     """
     floor = walkable_floor(plan)
-    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
-    area = floor.difference(outlines(standing, STEP, settings.obstacle_height))
+    area = floor.difference(_obstacles(objects, settings))
     low, high = np.array(floor.bounds[:2]), np.array(floor.bounds[2:])
     columns, rows = (int(n) for n in np.ceil((high - low) / settings.cell))
     free = cells_inside(area, low, settings.cell, (rows, columns))
@@ -63,7 +62,7 @@ def navigability(plan: FloorPlan, objects: Sequence[SceneObject], settings: Navi
     parts = [walkable_floor(plan, part) for part in connected_parts(plan)]
     cells = [component[free & cells_inside(part, low, settings.cell, free.shape)] for part in parts]
     share = _share([np.bincount(of_part)[1:] for of_part in cells], outside)
-    body = [part.intersection(area).buffer(_FIT - settings.body_radius) for part in parts]
+    body = [_fitting(part.intersection(area), settings) for part in parts]
     share_body = _share([shapely.area(shapely.get_parts(piece)) for piece in body], outside)
     return Navigability(share=share, share_body=share_body, free=free, component=component, origin=low, cell=settings.cell)
 
@@ -79,6 +78,20 @@ def _share(parts: Sequence[np.ndarray], outside: Sequence[bool]) -> float:
     largest = [float(pieces.max(initial=0)) for pieces in parts]
     together = sum(size for size, leads in zip(largest, outside) if leads)
     return max(together, *largest) / total if total > 0 else 0.0
+
+
+def body_area(plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS) -> BaseGeometry:
+    """Where the centre of the body can be: what `Navigability.share_body` is the share of."""
+    return _fitting(walkable_floor(plan).difference(_obstacles(objects, settings)), settings)
+
+
+def _obstacles(objects: Sequence[SceneObject], settings: NavigationSettings) -> BaseGeometry:
+    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
+    return outlines(standing, STEP, settings.obstacle_height)
+
+
+def _fitting(area: BaseGeometry, settings: NavigationSettings) -> BaseGeometry:
+    return area.buffer(_FIT - settings.body_radius)
 
 
 def walkable_floor(plan: FloorPlan, rooms: Sequence[int] | None = None) -> BaseGeometry:

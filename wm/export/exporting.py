@@ -1,0 +1,73 @@
+"""Writing several targets of one run, and what was written as a table."""
+
+import dataclasses
+from collections.abc import Sequence
+from pathlib import Path
+
+from tabulate import tabulate
+
+from wm.errors import InputError
+from wm.export.records import ExportError
+from wm.export.targets import TARGETS, check_targets
+from wm.finished import FinishedRun
+from wm.stages.progress import progress
+
+FOLDER = "export"
+"""Where in a run folder exports go that name no folder."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Exported:
+    """The files of one target."""
+
+    target: str
+    paths: tuple[Path, ...]
+
+    @property
+    def size(self) -> int:
+        """Bytes of all files."""
+        return sum(path.stat().st_size for path in self.paths)
+
+
+def export(run: FinishedRun, names: Sequence[str], folder: Path | None = None) -> list[Exported]:
+    """Writes targets in the order of TARGETS, which later ones build on.
+
+    Args:
+      run: a finished run.
+      names: of targets.
+      folder: where to; by default `export` in the run folder.
+
+    Raises:
+      ExportError: a target is unknown, lacks its extra, or was read back as something else.
+      UnfinishedRunError: the run lacks a file that a target needs.
+      OSError: a file cannot be written.
+    """
+    check_targets(names)
+    folder = run.folder / FOLDER if folder is None else folder
+    done = []
+    ordered = [name for name in TARGETS if name in names]
+    with progress("export", len(ordered)) as bar:
+        for name in ordered:
+            bar.set_postfix_str(name)
+            try:
+                paths = TARGETS[name].load().write(run, folder)
+            except InputError as error:
+                raise ExportError(f"target {name}: {error}") from error
+            done.append(Exported(name, tuple(paths)))
+            bar.update()
+    return done
+
+
+def exported_table(exported: Sequence[Exported], folder: Path) -> str:
+    """Targets, the files of each, and their size."""
+    rows = [(one.target, _files(one.paths, folder), f"{one.size / 1e6:.2f} MB") for one in exported]
+    return tabulate(rows, tablefmt="plain", colalign=("left", "left", "right"), disable_numparse=True)
+
+
+def _files(paths: Sequence[Path], folder: Path) -> str:
+    """The names of a few files, or the folder that many are in."""
+    names = [path.relative_to(folder).as_posix() if path.is_relative_to(folder) else str(path) for path in paths]
+    if len(names) <= 3:
+        return ", ".join(names)
+    places = dict.fromkeys(name.rpartition("/")[0] + "/" if "/" in name else name for name in names)
+    return f"{', '.join(list(places)[:3])}{' ...' if len(places) > 3 else ''} ({len(names)} files)"
