@@ -4,7 +4,7 @@ import pytest
 
 from wm.export import __main__ as command
 from wm.export import targets
-from wm.export.exporting import export
+from wm.export.exporting import export, exported_files
 from wm.export.records import ExportError
 from wm.export.targets import TARGETS, ExportTarget, TargetModule
 from wm.export.words import listed
@@ -14,7 +14,9 @@ def test_it_writes_what_is_asked_for_and_says_where(finished, tmp_path, capsys):
     assert command.main([str(finished.folder), "to=[navmesh]", f"output={tmp_path}"]) == 0
     said = capsys.readouterr().out
     assert "navmesh.json, navmesh.glb" in said and f"results: {tmp_path}" in said
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["navmesh.glb", "navmesh.json"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["navmesh.glb", "navmesh.json", "targets.json"]
+    export(finished, ["scaffold"], tmp_path)
+    assert exported_files(tmp_path) == {"navmesh": ["navmesh.glb", "navmesh.json"], "scaffold": ["scaffold.glb"]}
 
 
 @pytest.mark.parametrize(

@@ -8,5 +8,6 @@
     scaffold      scaffold.glb: rooms, furniture, lights and cameras
     simulation/   the house for simulators: MJCF, URDF, OpenUSD
     splats/       gaussians in the formats that viewers open
+    world         world.json: rooms, openings, objects and spawn points
     words         words of a command line: a folder, and keys with their values
 """

@@ -1,11 +1,15 @@
 """Writing several targets of one run, and what was written as a table."""
 
+import contextlib
 import dataclasses
+import json
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
 from tabulate import tabulate
 
+from wm.artifacts.atomic import write_atomically
 from wm.errors import InputError
 from wm.export.records import ExportError
 from wm.export.targets import TARGETS, check_targets
@@ -14,6 +18,8 @@ from wm.stages.progress import progress
 
 FOLDER = "export"
 """Where in a run folder exports go that name no folder."""
+LIST = "targets.json"
+"""What a folder of exports holds: the files of each target."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -54,8 +60,30 @@ def export(run: FinishedRun, names: Sequence[str], folder: Path | None = None) -
             except InputError as error:
                 raise ExportError(f"target {name}: {error}") from error
             done.append(Exported(name, tuple(paths)))
+            _note(folder, done[-1])
             bar.update()
     return done
+
+
+def exported_files(folder: Path) -> dict[str, list[str]]:
+    """The files of each target that was written to a folder, in the order of names. Raises: ExportError: none was."""
+    try:
+        told = json.loads((folder / LIST).read_text(encoding="utf-8"))
+        return {str(name): list(files) for name, files in told["targets"].items()}
+    except FileNotFoundError as error:
+        raise ExportError(f"{folder}: nothing was exported there; python -m wm.export RUN does") from error
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ExportError(f"{folder / LIST}: is damaged ({error}); export again") from error
+
+
+def _note(folder: Path, exported: Exported) -> None:
+    """Adds the files of a target to the folder's list; a damaged list is begun again."""
+    known: dict[str, list[str]] = {}
+    with contextlib.suppress(ExportError):
+        known = exported_files(folder)
+    known[exported.target] = sorted(Path(os.path.relpath(path, folder)).as_posix() for path in exported.paths)
+    told = {"version": 1, "targets": dict(sorted(known.items()))}
+    write_atomically(folder / LIST, json.dumps(told, indent=1) + "\n")
 
 
 def exported_table(exported: Sequence[Exported], folder: Path) -> str:

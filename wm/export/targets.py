@@ -62,6 +62,7 @@ TARGETS: dict[str, ExportTarget] = {
     "spz": ExportTarget("wm.export.splats.spz", "gaussians in Niantic's SPZ (version 3), y up", "splats"),
     "urdf": ExportTarget("wm.export.simulation.urdf", "the house as a robot description", "simulation"),
     "usd": ExportTarget("wm.export.simulation.usd", "OpenUSD: scaffold, splats, colliders, masses, labels", "simulation"),
+    "world": ExportTarget("wm.export.world", "rooms, openings, objects and spawn points: JSON with a schema"),
 }
 
 

@@ -44,7 +44,7 @@ def room_spawns(plan: FloorPlan, navmesh: Navmesh) -> tuple[Spawn | None, ...]:
 
 
 def part_spawns(plan: FloorPlan, navmesh: Navmesh, rooms: Sequence[Spawn | None]) -> tuple[Spawn, ...]:
-    """For each part of the navmesh one place: behind an entrance if it has one, else in the room with the most free air."""
+    """For each part of the navmesh one place: behind an entrance if it has one, else in the room with the most free floor."""
     count = int(navmesh.part.max(initial=-1)) + 1
     return tuple(_part_spawn(plan, navmesh, rooms, part) for part in range(count))
 
@@ -70,7 +70,7 @@ def _part_spawn(plan: FloorPlan, navmesh: Navmesh, rooms: Sequence[Spawn | None]
             if entered is not None:
                 return entered
     if mine:
-        return max(mine, key=lambda spawn: spawn.clearance)
+        return max(mine, key=lambda spawn: float(navmesh.areas[(navmesh.room == spawn.room) & (navmesh.part == part)].sum()))
     room = int(navmesh.room[navmesh.part == part].max())
     point, clearance = _widest(max(shapely.get_parts(_area(navmesh, navmesh.part == part)), key=lambda piece: piece.area))
     return Spawn((*point, 0.0), 0.0, room, part, clearance)
