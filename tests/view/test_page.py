@@ -169,7 +169,8 @@ def test_rooms_are_jumped_to_and_layers_toggled_by_keys(opened, run):
     assert page.get_attribute("body", "data-mode") == "orbit"
     with page.expect_download() as download:
         page.keyboard.press("p")
-    assert Image.open(download.value.path()).size == (1000, 700)
+    with Image.open(download.value.path()) as saved:
+        assert saved.size == (1000, 700)
 
 
 def test_the_label_names_the_object_under_the_pointer(opened, run):
