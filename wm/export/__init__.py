@@ -5,6 +5,8 @@
     targets       TARGETS: the targets by name, and the module of each
     records       ExportError, Check
     navmesh       where a body can walk
+    scaffold      scaffold.glb: rooms, furniture, lights and cameras
     simulation/   the house for simulators: MJCF, URDF, OpenUSD
+    splats/       gaussians in the formats that viewers open
     words         words of a command line: a folder, and keys with their values
 """

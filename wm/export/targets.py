@@ -51,8 +51,15 @@ class ExportTarget:
 
 
 TARGETS: dict[str, ExportTarget] = {
+    "compressed_ply": ExportTarget("wm.export.splats.compressed_ply", "gaussians in PlayCanvas's compressed PLY, y up"),
+    "gltf_splats": ExportTarget("wm.export.splats.gltf_splats", "scaffold and gaussians in one GLB (KHR_gaussian_splatting)"),
+    "labelled_ply": ExportTarget("wm.export.splats.labelled_ply", "splats.ply with the room and the object of each gaussian"),
     "mjcf": ExportTarget("wm.export.simulation.mjcf", "the house for MuJoCo, furniture as bodies", "simulation"),
     "navmesh": ExportTarget("wm.export.navmesh", "where a body can walk, as triangles: JSON and GLB"),
+    "scaffold": ExportTarget("wm.export.scaffold", "the textured building and its furniture: GLB with lights and cameras"),
+    "sog": ExportTarget("wm.export.splats.sog", "gaussians in PlayCanvas's SOG, y up", "splats"),
+    "splat": ExportTarget("wm.export.splats.splat", "gaussians in antimatter15's .splat, y up"),
+    "spz": ExportTarget("wm.export.splats.spz", "gaussians in Niantic's SPZ (version 3), y up", "splats"),
     "urdf": ExportTarget("wm.export.simulation.urdf", "the house as a robot description", "simulation"),
     "usd": ExportTarget("wm.export.simulation.usd", "OpenUSD: scaffold, splats, colliders, masses, labels", "simulation"),
 }

@@ -16,4 +16,6 @@
     paper_study   the paper's figures
     analysis      analyse: all figures of a study
     results       the tables, as markdown and CSV
+
+docs/study.md says how to use it.
 """

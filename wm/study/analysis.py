@@ -107,11 +107,16 @@ def _rating_agreement(study: Study, rated: Sequence[Rating]) -> list[RaterAgreem
 
 
 def _choice_agreement(study: Study, chosen: Sequence[Choice]) -> list[RaterAgreement]:
-    """Over pairs, with the method that was chosen as the value."""
+    """Over pairs of videos, with the one that was chosen as the value.
+
+    Each pair stands twice, with its videos named in either order, so that no name is the usual one: chance is then a choice by
+    lot, and a method that nearly everybody prefers gives agreement and not, as the more frequent of two values would, none.
+    """
     if not study.questions.preference:
         return []
-    units: dict[tuple[str, ...], list[str]] = defaultdict(list)
+    units: dict[tuple[str, ...], list[int]] = defaultdict(list)
     for choice in chosen:
-        units[choice.scene, *sorted((choice.chosen, choice.other))].append(choice.chosen)
+        units[choice.scene, *sorted((choice.chosen, choice.other))].append(int(choice.chosen < choice.other))
     values = list(units.values())
-    return [RaterAgreement("preference", "nominal", krippendorff_alpha(values, "nominal"), sum(len(v) > 1 for v in values))]
+    both = [*values, *([1 - value for value in unit] for unit in values)]
+    return [RaterAgreement("preference", "nominal", krippendorff_alpha(both, "nominal"), sum(len(v) > 1 for v in values))]

@@ -5,7 +5,7 @@ Three kinds of checks are among the pages, and a participant who fails one is ex
 - a page to rate that says which number to choose: failed unless every question has that number;
 - a pair that says which video to choose: failed by the other one;
 - a video that is rated a second time, near the end: failed where the two ratings differ by more than the tolerance of the
-  question set, on average over the questions. Somebody who rates at random differs by 1.6 points in expectation.
+  question set, on average over the questions. experiments/study says how many of whom this excludes.
 
 A check whose video could not be played is not judged. No check counts as a rating or a preference.
 """

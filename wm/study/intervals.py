@@ -5,7 +5,8 @@ from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import binomtest
+from scipy.stats import binomtest, norm
+from scipy.stats import t as student
 
 CONFIDENCE = 0.95
 
@@ -22,9 +23,11 @@ class Estimate:
 
 
 def bootstrapped_mean(answers: Iterable[tuple[Hashable, float]], *, seed: int, resamples: int = 10_000) -> Estimate:
-    """The mean of all answers, with a percentile interval over participants.
+    """The mean of all answers, with an expanded percentile interval over participants.
 
-    Participants are drawn with replacement, each with all of their answers, since answers of one person go together.
+    Participants are drawn with replacement, each with all of their answers, since answers of one person go together. The
+    percentiles are those of a normal distribution at sqrt(n / (n - 1)) times Student's quantile (n - 1 degrees of freedom), since
+    plain ones are too narrow for few participants (of 8, they cover 88 % and not 95 %).
 
     Args:
       answers: participant and value of each.
@@ -33,7 +36,7 @@ def bootstrapped_mean(answers: Iterable[tuple[Hashable, float]], *, seed: int, r
     Returns:
       The estimate. The interval is nan for fewer than two participants.
 
-    Source: Efron and Tibshirani, An Introduction to the Bootstrap, 1993, sections 8.3 (clusters) and 13.3 (percentiles).
+    Source: Hesterberg, What Teachers Should Know About the Bootstrap, The American Statistician 69, 2015, section 5.3.
     """
     totals: dict[Hashable, list[float]] = {}
     for participant, value in answers:
@@ -48,7 +51,8 @@ def bootstrapped_mean(answers: Iterable[tuple[Hashable, float]], *, seed: int, r
     if number > 1:
         drawn = np.random.default_rng(seed).integers(number, size=(resamples, number))
         means = sums[drawn].sum(axis=1) / counts[drawn].sum(axis=1)
-        low, high = map(float, np.quantile(means, [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2]))
+        tail = float(norm.cdf(math.sqrt(number / (number - 1)) * student.ppf((1 - CONFIDENCE) / 2, number - 1)))
+        low, high = map(float, np.quantile(means, [tail, 1 - tail]))
     return Estimate(mean, low, high, int(counts.sum()), number)
 
 

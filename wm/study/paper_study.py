@@ -33,9 +33,8 @@ PAPER_PREFERENCES: dict[str, float] = {
     "layerpano3d": 0.935,
     "dreamscene360": 0.935,
     "flexworld": 0.935,
-    "": 0.962,
 }
-"""Share that preferred the paper's method to each other one; "" is the mean over these."""
+"""Share that preferred the paper's method to each other one."""
 
 _OURS = {"comparison": "ours", "ablation": "full"}
 
@@ -59,5 +58,5 @@ def paper_rating(table: str, method: str, question: str, *, reference: bool) -> 
 
 
 def paper_preference(table: str, method: str) -> float | None:
-    """The paper's share for its method against another, "" for their mean; None where it has none."""
+    """The paper's share for its method against another; None where it has none."""
     return PAPER_PREFERENCES.get(plain(method)) if table == "comparison" else None

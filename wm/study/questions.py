@@ -35,7 +35,7 @@ class Checks:
     ratings: int = 1  # pages that say which number to choose
     pairs: int = 1  # pages that say which of two videos to choose
     repeats: int = 1  # videos that are rated a second time
-    tolerance: float = 1.0  # points by which the second rating may differ, on average over the questions
+    tolerance: float = 2.0  # points by which the second rating may differ, on average over the questions
 
 
 @dataclass(frozen=True)

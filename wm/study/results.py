@@ -80,7 +80,7 @@ def _paper(study: Study, method: str, question: str) -> float | None:
 
 
 def _ratings_words(found: Findings) -> str:
-    words = "Means of 1 to 5, higher is better. Intervals: percentiles of"
+    words = "Means of 1 to 5, higher is better. Intervals: expanded percentiles of"
     return f"{words} {found.resamples} bootstrap samples of participants."
 
 
@@ -97,7 +97,9 @@ def _preferences_table(study: Study, found: Findings) -> str:
     ]
     shares = [estimate.value for estimate in found.preferences.values() if estimate.answers]
     if study.questions.pairs == "reference" and shares:
-        paper = _figure(_paper_share(study, ""), "{:.1f}", 100.0)
+        papers = [_paper_share(study, second) for _, second in found.preferences]
+        known = [share for share in papers if share is not None]
+        paper = _figure(sum(known) / len(known) if len(known) == len(papers) else None, "{:.1f}", 100.0)
         rows.append((study.reference, "mean of these", f"{100 * sum(shares) / len(shares):.1f}", paper, len(found.chosen)))
     return _table(("method", "against", "preferred (%)", "paper", "answers"), rows)
 

@@ -11,6 +11,10 @@ from wm.export.simulation.looks import HousePart, house_parts
 from wm.finished import FinishedRun
 
 
+RESERVED = ("house", "world")
+"""Names that the formats need for themselves."""
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class House:
     """All of a run that the targets of this package write."""
@@ -30,12 +34,15 @@ def simulated(run: FinishedRun) -> House:
     """The bodies and surfaces of a run.
 
     Raises:
-      ExportError: an object has no surface.
+      ExportError: an object has no surface, or an id that the formats need for themselves.
       UnfinishedRunError: the run has no plan yet.
     """
     empty = [thing.id for thing in run.objects if not _has_surface(thing.vertices, thing.faces)]
     if empty:
         raise ExportError(f"{run.folder}: {', '.join(empty)}: an object without a surface can have no mass")
+    reserved = [thing.id for thing in run.objects if thing.id in RESERVED or thing.id.startswith("house/")]
+    if reserved:
+        raise ExportError(f"{run.folder}: the id {reserved[0]!r} is taken by the building; give the object another one")
     taken = identifiers(["House", "Looks", "exterior", *run.rooms, *(thing.id for thing in run.objects)])
     return House(
         bodies=tuple(rigid_body(thing) for thing in run.objects),

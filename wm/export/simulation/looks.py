@@ -71,7 +71,7 @@ def house_parts(run: FinishedRun) -> list[HousePart]:
 def _looks(structure: Mesh, kind: SurfaceKind, faces: Int[np.ndarray, "f"], painted: "_Painted | None") -> Iterator[Appearance]:
     """The faces of one image after another, then those that no image shows."""
     source = np.full(len(faces), -1) if painted is None else painted.source[faces]
-    for image in np.unique(source):
+    for image in np.unique(source).tolist():
         mine = faces[source == image]
         corners = structure.vertices[structure.faces[mine]].reshape(-1, 3)
         textured = painted is not None and image >= 0

@@ -53,8 +53,11 @@ def check(run: FinishedRun, folder: Path) -> Sequence[Check]:
     if wrong:
         return [same]
     settled = settle(path)
+    bodies = simulated(run).bodies
+    open_parts, parts = sum(body.open_parts for body in bodies), sum(max(len(body.hulls), body.open_parts) for body in bodies)
     return [
         same,
+        Check("mjcf", "open parts of objects, whose hulls stand for them", f"{open_parts} of {parts}", "any", True),
         _all_but(settled.moved, settled, "standing objects that move less than 2 cm in 2 s"),
         _all_but(settled.tipped, settled, "standing objects that do not tip in 2 s"),
     ]

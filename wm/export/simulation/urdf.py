@@ -128,10 +128,13 @@ def _differences(house: House, path: Path) -> list[str]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of trimesh about how yourdfpy calls it
             urdf = yourdfpy.URDF.load(str(path), build_collision_scene_graph=True, load_collision_meshes=True)
-    except (OSError, ValueError, ElementTree.ParseError) as error:
+    except Exception as error:  # a parser that is handed anything raises anything
         return [f"yourdfpy refuses it: {error}"]
     if not urdf.validate():
         return [f"yourdfpy finds errors: {'; '.join(str(error) for error in urdf.errors)}"]
+    lost = sorted(name for name in _mesh_names(urdf) if not (path.parent / name).is_file())
+    if lost:
+        return [f"{len(lost)} of its meshes are not there, such as {lost[0]}"]
     links = {name: link for name, link in urdf.link_map.items() if name != ROOT and not name.startswith("house/")}
     ours = {body.id: body for body in house.bodies}
     wrong = [f"{len(links)} links for {len(ours)} objects"] if set(links) != set(ours) else []
@@ -141,15 +144,27 @@ def _differences(house: House, path: Path) -> list[str]:
 
 
 def _link_differences(body: Body, urdf: Any, link: Any) -> Iterator[str]:
+    if f"{link.name}/joint" not in urdf.joint_map:
+        yield "has no joint"
+        return
     gap = np.abs(urdf.get_transform(link.name, ROOT) - body.T_world_body).max()
     if not gap < 1e-6 * (1 + np.abs(body.T_world_body[:3, 3]).max()):
         yield f"stands elsewhere, by {gap:.2g}"
-    if not np.isclose(link.inertial.mass, body.mass, rtol=1e-6):
-        yield f"weighs {link.inertial.mass:.4g} kg for {body.mass:.4g}"
-    if not np.allclose(link.inertial.inertia, body.inertia, rtol=1e-6, atol=1e-12):
+    inertial = link.inertial
+    if inertial is None:
+        yield "has no mass"
+        return
+    if not np.isclose(inertial.mass, body.mass, rtol=1e-6):
+        yield f"weighs {inertial.mass:.4g} kg for {body.mass:.4g}"
+    if not np.allclose(inertial.inertia, body.inertia, rtol=1e-6, atol=1e-12):
         yield "has another inertia"
     if len(link.collisions) != len(body.hulls):
         yield f"has {len(link.collisions)} hulls for {len(body.hulls)}"
     kind = urdf.joint_map[f"{link.name}/joint"].type
     if (kind == "floating") != body.moves:
         yield f"has a {kind} joint"
+
+
+def _mesh_names(urdf: Any) -> set[str]:
+    shapes = [shape.geometry for link in urdf.robot.links for shape in (*link.visuals, *link.collisions)]
+    return {shape.mesh.filename for shape in shapes if shape.mesh is not None}

@@ -102,6 +102,8 @@ def _obj(corners: Float[np.ndarray, "f 3 3"], corner_uv: Float[np.ndarray, "f 3 
     normals = _normals(corners)
     there = np.abs(normals).max(axis=1) > 0
     corners, corner_uv, normals = corners[there], corner_uv[there], normals[there]
+    if len(corners) == 1:  # MuJoCo refuses meshes of three vertices
+        corners, corner_uv, normals = _halved(corners), _halved(corner_uv), normals.repeat(2, axis=0)
     upright = np.stack([corner_uv[..., 0], 1.0 - corner_uv[..., 1]], axis=-1)  # OBJ counts v upward
     lines = [f"mtllib {material}.mtl", f"usemtl {material}"]
     index = []
@@ -113,6 +115,13 @@ def _obj(corners: Float[np.ndarray, "f 3 3"], corner_uv: Float[np.ndarray, "f 3 
     v, vt, vn = (numbers.reshape(-1, 3).tolist() for numbers in (index[0], index[1], normal))
     lines += ["f " + " ".join(f"{a}/{b}/{c}" for a, b, c in zip(*face)) for face in zip(v, vt, vn)]
     return "\n".join(lines) + "\n"
+
+
+def _halved(corners: Float[np.ndarray, "1 3 k"]) -> Float[np.ndarray, "2 3 k"]:
+    """A triangle cut in two at the middle of its first side."""
+    a, b, c = corners[0]
+    middle = (a + b) / 2
+    return np.array([[a, middle, c], [middle, b, c]])
 
 
 def _normals(corners: Float[np.ndarray, "f 3 3"]) -> Float[np.ndarray, "f 3"]:

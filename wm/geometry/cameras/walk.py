@@ -165,7 +165,7 @@ def _cameras(
 
 
 def _walkable(plan: FloorPlan, mesh: Mesh, height: float, rooms: Sequence[int]) -> _Floor:
-    """The floor of the widest walker who gets into all these rooms: around furniture, else slimmer, else over low furniture too."""
+    """The floor of the widest walker who gets into these rooms: around furniture, else slimmer, else over low furniture too."""
     things = object_corners(mesh)
     tall = [corners for corners in things if corners[..., 2].max() > height - _AIR]
     unreached = []

@@ -202,7 +202,7 @@ class Reader:
             wanted = f"one line of at most {LONGEST_ROOM_NAME} printable characters"
             self._fault(name, "type", f"'name' is {_show(title)}; it must be {wanted}")
             title = name
-        height = self._number(name, value, "ceiling_height", ceiling, *CEILING)
+        height = self._ceiling(name, value, ceiling)
         polygon, holes = self._outline(name, value)
         openings = _given(value, "openings", [])
         if not isinstance(openings, list) or len(openings) > MAX_OPENINGS:
@@ -225,6 +225,13 @@ class Reader:
             columns=tuple(counter_clockwise(ring) for ring in self._rings(name, value, "columns")),
             walls=self._walls(name, value),
         )
+
+    def _ceiling(self, room: str, value: dict[str, Any], default: float) -> float | None:
+        if isinstance(value.get("ceiling_height"), list | dict):
+            what = "ceiling_height has several heights; ceilings are level: give one number of metres, or split the room"
+            self._fault(room, "type", what)
+            return None
+        return self._number(room, value, "ceiling_height", default, *CEILING)
 
     def _outline(self, room: str, value: dict[str, Any]) -> tuple[np.ndarray | None, tuple[np.ndarray, ...]]:
         """The outline and the holes of a room: `holes`, further rings in `floor_polygon`, or slits of its one ring."""

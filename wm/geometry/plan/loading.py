@@ -146,11 +146,11 @@ class _Settled:
 
 
 def _settled(plan: FloorPlan, *, repair: bool, unreachable: bool, rooms_missing: bool, openings_missing: bool) -> _Settled:
-    rooms, notes = snapped(plan.rooms)
-    sound = is_sound(rooms)
-    if repair and sound:
-        rooms, closed = repaired(rooms)
-        notes = (*notes, *closed)
+    rooms, notes = plan.rooms, ()
+    if repair and is_sound(rooms):
+        rooms, notes = repaired(rooms)
+    rooms, joined = snapped(rooms)
+    notes, sound = (*notes, *joined), is_sound(rooms)
     rooms, columns = columns_for_holes(rooms)
     notes, plan = (*notes, *columns), dataclasses.replace(plan, rooms=rooms)
     if sound:

@@ -96,14 +96,24 @@ def _with_entrance(
     for room in order:
         height = min(round(100 * building.door[1]), ceilings[room] - 20)
         walls = sorted((s for s in outer if s.side.room == room), key=lambda s: (s.low - s.high, s.side.start))
-        for kept in (holes, [hole for hole in holes if hole.kind != "window"]):
-            for stretch in walls:
-                for low in range(stretch.low + JAMB, stretch.high - JAMB - width + 1, 5):
-                    door = Hole("door", stretch.side, None, low, low + width, height, 0)
-                    if not any(_conflicts(door, hole) for hole in kept):
-                        windows = [hole for hole in holes if hole not in kept and not _conflicts(door, hole)]
-                        return [hole for hole in holes if hole in kept or hole in windows] + [door]
+        for stretch in walls:
+            for low in range(stretch.low + JAMB, stretch.high - JAMB - width + 1, 5):
+                door = Hole("door", stretch.side, None, low, low + width, height, 0)
+                if not any(_conflicts(door, hole) for hole in holes):
+                    return [*holes, door]
+        door = _in_place_of_a_window(holes, room, width, height, spaces[room].kind.zone == CIRCULATION)
+        if door is not None:
+            return [hole for hole in holes if not _conflicts(door, hole)] + [door]
     return holes
+
+
+def _in_place_of_a_window(holes: Sequence[Hole], room: int, width: int, height: int, last: bool) -> Hole | None:
+    """An entrance where a window of the room is wide enough for it; its last window is taken only where `last` says so."""
+    windows = [hole for hole in holes if hole.side.room == room and hole.kind == "window" and hole.high - hole.low >= width]
+    if not windows or (not last and sum(hole.side.room == room and hole.kind == "window" for hole in holes) < 2):
+        return None
+    low = (windows[0].low + windows[0].high - width) // 2
+    return Hole("door", windows[0].side, None, low, low + width, height, 0)
 
 
 def _conflicts(a: Hole, b: Hole) -> bool:

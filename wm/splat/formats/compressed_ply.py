@@ -7,7 +7,7 @@ library that has the format (gaussforge 0.6) keeps the order, and then a chunk i
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float, Int64, UInt32
+from jaxtyping import Float, Float32, Int64, UInt32, UInt64
 
 from wm.splat.ply.compressed import CHUNK, PACKED
 from wm.splat.ply.standard import packable
@@ -15,7 +15,7 @@ from wm.splat.rasterizer.harmonics import SH_C0
 from wm.types import Gaussians
 
 _PLACE, _COLOR = (11, 10, 11), (8, 8, 8)  # bits
-_CELLS = 1024  # of the Morton curve along each axis
+_CURVE = 10  # bits of the Morton curve along each axis
 
 
 def save_compressed_ply(path: str | Path, gaussians: Gaussians) -> None:
@@ -37,27 +37,44 @@ def save_compressed_ply(path: str | Path, gaussians: Gaussians) -> None:
 
 
 def morton_order(means: Float[np.ndarray, "n 3"]) -> Int64[np.ndarray, " n"]:
-    """The order along a Morton curve through a cube around all means; ties keep their order."""
+    """The order along a Morton curve through the box around all means; ties keep their order."""
+    return np.argsort(morton_codes(means, bits=_CURVE), kind="stable")
+
+
+def morton_codes(means: Float[np.ndarray, "n 3"], *, bits: int) -> UInt64[np.ndarray, " n"]:
+    """The place of each mean on a Morton curve of 2^bits cells along each side of the box around all (in float32)."""
+    code = np.zeros(len(means), np.uint64)
     if not len(means):
-        return np.zeros(0, np.int64)
-    low = means.min(axis=0)
-    side = max(float((means.max(axis=0) - low).max()), 1e-6)
-    cells = np.minimum(((means - low) / side * _CELLS).astype(np.int64), _CELLS - 1)
-    code = np.zeros(len(means), np.int64)
-    for bit in range(10):
+        return code
+    low, most = means.min(axis=0), np.float32(2**bits - 1)
+    size = means.max(axis=0) - low
+    factor = np.where(size > 1e-8, most / np.where(size > 1e-8, size, 1), 0).astype(means.dtype)
+    cells = np.minimum((means - low) * factor, most).astype(np.uint64)
+    for bit in range(bits):
         for axis in range(3):
-            code |= ((cells[:, axis] >> bit) & 1) << (3 * bit + axis)
-    return np.argsort(code, kind="stable")
+            code |= ((cells[:, axis] >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit + axis)
+    return code
+
+
+def chunk_extents(values: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+    """How far the bounds of each row's chunk lie apart."""
+    low, high = _bounds(values)
+    return (high - low)[np.arange(len(values)) // CHUNK]
+
+
+def _bounds(values: Float[np.ndarray, "n 3"]) -> tuple[Float32[np.ndarray, "chunks 3"], Float32[np.ndarray, "chunks 3"]]:
+    """The least and the largest values of each chunk."""
+    if not len(values):
+        return np.zeros((0, 3), np.float32), np.zeros((0, 3), np.float32)
+    starts = np.arange(0, len(values), CHUNK)
+    return np.minimum.reduceat(values, starts).astype(np.float32), np.maximum.reduceat(values, starts).astype(np.float32)
 
 
 def _packed(
     values: Float[np.ndarray, "n 3"], bits: tuple[int, int, int]
 ) -> tuple[np.ndarray, np.ndarray, UInt32[np.ndarray, " n"]]:
     """The bounds of every chunk [chunks, 3], and each row in one word between those of its chunk."""
-    starts = np.arange(0, len(values), CHUNK)
-    empty = np.zeros((0, 3), np.float32)
-    low, high = (f.reduceat(values, starts, axis=0) if len(values) else empty for f in (np.minimum, np.maximum))
-    low, high = low.astype(np.float32), high.astype(np.float32)
+    low, high = _bounds(values)
     of = np.arange(len(values)) // CHUNK
     size = np.where(high > low, high - low, 1)
     share = np.clip((values - low[of]) / size[of], 0, 1).astype(np.float64)
