@@ -15,21 +15,32 @@ from wm.compare.drawing import Drawer
 from wm.compare.store import Store
 from wm.compare.trajectories import Picture, Trajectory, file_text
 from wm.memory import MemoryProbe
+from wm.quality import Quality
 from wm.report import write_video
 from wm.stages.ordered import in_order
 from wm.types import Camera
 
+SCORED = 6
+"""Every so many frames one is scored by `wm.quality`: a quarter of a second."""
 VERSION = 1
 """To be raised when the same trajectory comes to be measured otherwise."""
 
 
 def measure(
-    trajectory: Trajectory, draw: Drawer, store: Store, method: str, picture: Picture, done: Callable[[], object]
+    trajectory: Trajectory,
+    draw: Drawer,
+    store: Store,
+    method: str,
+    picture: Picture,
+    *,
+    done: Callable[[], object],
+    quality: Quality | None = None,
 ) -> dict[str, float | int | None]:
     """Renders a trajectory, writes its video and cameras, and returns its figures by key.
 
     Args:
         done: called after every frame.
+        quality: what scores every SCORED-th frame.
     """
     began, probe, peak = time.perf_counter(), MemoryProbe(), 0.0
     frames: list[Frame] = []
@@ -41,7 +52,7 @@ def measure(
     write_atomically(store.cameras(method, trajectory.name), file_text(trajectory, picture))
     video = store.video(method, trajectory.name)
     write_atomically(video, lambda path: write_video(path, (to_bytes(frame.rgb) for frame in frames), fps=picture.fps))
-    figures = figures_of(frames)
+    figures = figures_of(frames) | _scores(frames, quality)
     peak = max(peak, probe.resident_gib())
     return figures | {
         "frames": len(frames),
@@ -64,6 +75,14 @@ def figures_of(frames: Sequence[Frame]) -> dict[str, float | int | None]:
         **means(parts),
         "holes": float(np.mean([frame.holes for frame in frames])),
     }
+
+
+def _scores(frames: Sequence[Frame], quality: Quality | None) -> dict[str, float]:
+    """Means over every SCORED-th frame, by key."""
+    if quality is None:
+        return {}
+    rows = [quality.score(to_bytes(frame.rgb)) for frame in frames[::SCORED]]
+    return {key: float(np.mean([row[key] for row in rows])) for key in rows[0]}
 
 
 def _frame(draw: Drawer, camera: Camera) -> Frame:
