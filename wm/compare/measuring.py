@@ -10,7 +10,7 @@ import numpy as np
 from wm.artifacts.atomic import write_atomically
 from wm.color import to_bytes
 from wm.compare.agreement import agreement
-from wm.compare.consistency import STEP, Consistency, Frame, consistency, frame_of, means
+from wm.compare.consistency import STEP, Consistency, DrawnFrame, consistency, frame_of, means
 from wm.compare.drawing import Drawer
 from wm.compare.store import Store
 from wm.compare.trajectories import Picture, Trajectory, file_text
@@ -43,7 +43,7 @@ def measure(
         quality: what scores every SCORED-th frame.
     """
     began, probe, peak = time.perf_counter(), MemoryProbe(), 0.0
-    frames: list[Frame] = []
+    frames: list[DrawnFrame] = []
     for frame in in_order(lambda camera: _frame(draw, camera), trajectory.cameras):
         frames.append(frame)
         peak = max(peak, probe.resident_gib())
@@ -62,7 +62,7 @@ def measure(
     }
 
 
-def figures_of(frames: Sequence[Frame]) -> dict[str, float | int | None]:
+def figures_of(frames: Sequence[DrawnFrame]) -> dict[str, float | int | None]:
     """What the frames of a path tell of the scene's consistency, by key. A figure that nothing tells is None."""
     pairs = list(zip(frames, frames[STEP:])) or list(itertools.pairwise(frames))
     parts: list[Consistency] = list(in_order(lambda pair: consistency(*pair), pairs))
@@ -77,7 +77,7 @@ def figures_of(frames: Sequence[Frame]) -> dict[str, float | int | None]:
     }
 
 
-def _scores(frames: Sequence[Frame], quality: Quality | None) -> dict[str, float]:
+def _scores(frames: Sequence[DrawnFrame], quality: Quality | None) -> dict[str, float]:
     """Means over every SCORED-th frame, by key."""
     if quality is None:
         return {}
@@ -85,6 +85,6 @@ def _scores(frames: Sequence[Frame], quality: Quality | None) -> dict[str, float
     return {key: float(np.mean([row[key] for row in rows])) for key in rows[0]}
 
 
-def _frame(draw: Drawer, camera: Camera) -> Frame:
+def _frame(draw: Drawer, camera: Camera) -> DrawnFrame:
     render = draw(camera)
     return frame_of(camera, np.asarray(render.rgb), np.asarray(render.depth), np.asarray(render.alpha))
