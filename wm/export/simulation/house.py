@@ -10,7 +10,6 @@ from wm.export.simulation.identifiers import identifiers
 from wm.export.simulation.looks import HousePart, house_parts
 from wm.finished import FinishedRun
 
-
 RESERVED = ("house", "world")
 """Names that the formats need for themselves."""
 
