@@ -9,6 +9,7 @@
     reprojection  reprojection_error: consistency of depth between views
     image_checks  what is wrong with an image that is to be measured
     ply           load_ply, save_ply, splat_render_mode, save_point_cloud: files of ours and of other programs
+    formats       load_splats and writers: compressed PLY, .splat, SPZ, SOG and glTF
 """
 
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr

@@ -42,13 +42,16 @@ def simulated(run: FinishedRun) -> House:
     reserved = [thing.id for thing in run.objects if thing.id in RESERVED or thing.id.startswith("house/")]
     if reserved:
         raise ExportError(f"{run.folder}: the id {reserved[0]!r} is taken by the building; give the object another one")
-    taken = identifiers(["House", "Looks", "exterior", *run.rooms, *(thing.id for thing in run.objects)])
+    rooms, names = house_names(run)
     return House(
-        bodies=tuple(rigid_body(thing) for thing in run.objects),
-        names=tuple(taken[3 + len(run.rooms) :]),
-        rooms=tuple(taken[3 : 3 + len(run.rooms)]),
-        parts=tuple(house_parts(run)),
+        bodies=tuple(rigid_body(thing) for thing in run.objects), names=names, rooms=rooms, parts=tuple(house_parts(run))
     )
+
+
+def house_names(run: FinishedRun) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The identifiers of the rooms, and those of the objects."""
+    taken = identifiers(["House", "Looks", "exterior", *run.rooms, *(thing.id for thing in run.objects)])
+    return tuple(taken[3 : 3 + len(run.rooms)]), tuple(taken[3 + len(run.rooms) :])
 
 
 def _has_surface(vertices: np.ndarray, faces: np.ndarray) -> bool:

@@ -5,6 +5,7 @@
     body        the rows of its elements, binary or ASCII
     dialects    which properties hold gaussians: INRIA, 2DGS, red-green-blue, point clouds
     compressed  PlayCanvas's packed layout
+    standard    packable: unit quaternions and finite numbers
     loading     load_ply, splat_render_mode
     saving      save_ply, save_point_cloud
 """

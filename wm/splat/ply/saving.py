@@ -7,24 +7,19 @@ channel-major (all of red's higher coefficients, then green's, then blue's), opa
 Source: Kerbl et al. 2023, reference implementation, `GaussianModel.save_ply`.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float, Float32, Num, UInt8
+from jaxtyping import Float, Int, UInt8
 
+from wm.splat.ply.standard import bounded_logits, unit_quats
 from wm.types import Gaussians
 
-HIGHEST_LOGIT = 6.2
-"""Opacity 0.99797, less than 254.5 of 255. A higher one becomes 255 in formats of 8 bits, and infinite where their readers take
-the logarithm. The rasterizer clamps alphas at 0.99, so what is drawn changes by less than half a step of 8 bits."""
 
-LOWEST_LOGIT = -20.0
-"""Opacity 2e-9: far below what any program draws."""
-
-_ALREADY_UNIT = 1e-6  # of a squared length: nearer to 1 is rounding, and dividing by it again would move the last digits
-
-
-def save_ply(path: str | Path, gaussians: Gaussians, *, antialias: bool = False) -> None:
+def save_ply(
+    path: str | Path, gaussians: Gaussians, *, antialias: bool = False, labels: Mapping[str, Int[np.ndarray, " n"]] | None = None
+) -> None:
     """Write gaussians as a PLY file; equal gaussians give equal bytes.
 
     Quaternions are written with unit length and opacities within bounds, which changes no render and which other programs
@@ -35,18 +30,24 @@ def save_ply(path: str | Path, gaussians: Gaussians, *, antialias: bool = False)
         gaussians: leaves on host or device, written as float32.
         antialias: whether they were trained with `RasterSettings.antialias`; the file then says so by the comment
             `SplatRenderMode: mip`, which Brush, gsplat and splat-transform read.
+        labels: whole numbers of each gaussian by name, written after the others as int32 properties. Readers of gaussians
+            leave them out.
     """
     sh = np.asarray(gaussians.sh, np.float32)
     n, k = sh.shape[:2]
     rest = np.swapaxes(sh[:, 1:], 1, 2).reshape(n, 3 * (k - 1))
     columns = [
         np.asarray(gaussians.means), np.zeros((n, 3)), sh[:, 0], rest,
-        _bounded(np.asarray(gaussians.opacity_logits))[:, None], np.asarray(gaussians.log_scales),
-        _unit(np.asarray(gaussians.quats)),
+        bounded_logits(np.asarray(gaussians.opacity_logits))[:, None], np.asarray(gaussians.log_scales),
+        unit_quats(np.asarray(gaussians.quats)),
     ]  # fmt: skip
     table = np.concatenate([column.astype("<f4") for column in columns], axis=1)
     comments = ["comment SplatRenderMode: mip"] if antialias else []
-    Path(path).write_bytes(_header(n, comments, [f"float {name}" for name in _field_names(k)]) + table.tobytes())
+    fields = [f"float {name}" for name in _field_names(k)]
+    if labels:
+        table = np.concatenate([table.view("<i4"), np.stack([*labels.values()], axis=1).astype("<i4")], axis=1)
+        fields += [f"int {name}" for name in labels]
+    Path(path).write_bytes(_header(n, comments, fields) + table.tobytes())
 
 
 def save_point_cloud(path: str | Path, points: Float[np.ndarray, "n 3"], colors: UInt8[np.ndarray, "n 3"]) -> None:
@@ -67,22 +68,6 @@ def save_point_cloud(path: str | Path, points: Float[np.ndarray, "n 3"], colors:
 def _header(count: int, comments: list[str], fields: list[str]) -> bytes:
     lines = ["ply", "format binary_little_endian 1.0", *comments, f"element vertex {count}"]
     return "\n".join([*lines, *(f"property {field}" for field in fields), "end_header\n"]).encode("ascii")
-
-
-def _bounded(logits: Num[np.ndarray, " n"]) -> Num[np.ndarray, " n"]:
-    """Finite logits; NaN, which the rasterizer does not draw, as the lowest."""
-    return np.clip(np.where(np.isnan(logits), LOWEST_LOGIT, logits), LOWEST_LOGIT, HIGHEST_LOGIT)
-
-
-def _unit(quats: Num[np.ndarray, "n 4"]) -> Float32[np.ndarray, "n 4"]:
-    """Quaternions of unit length; those that are, to rounding, stay as they are. Zero, which rotates nothing, is the identity."""
-    q = quats.astype(np.float64)
-    largest = np.abs(q).max(axis=1, keepdims=True, initial=0)
-    with np.errstate(invalid="ignore"):  # what is not finite stays so, and is not drawn
-        square = (q**2).sum(axis=1, keepdims=True)
-        q = np.where(largest == 0, np.array([1.0, 0, 0, 0]), q / np.where(largest == 0, 1, largest))
-        unit = q / np.linalg.norm(q, axis=1, keepdims=True)
-    return np.where(np.abs(square - 1) < _ALREADY_UNIT, quats, unit).astype(np.float32)
 
 
 def _field_names(k: int) -> list[str]:

@@ -1,16 +1,17 @@
 """Real spherical harmonics up to degree 3, with the signs and order of the INRIA splat files."""
 
+import numpy as np
 from jaxtyping import Array, Float
 
 SH_C0 = 0.28209479177387814
 """The constant one, 1 / (2 sqrt(pi)): colour = 0.5 + SH_C0 * sh_0."""
 
 
-def harmonics(direction: Float[Array, "3 n"] | None, degree: int) -> list:
+def harmonics(direction: Float[Array, "3 n"] | Float[np.ndarray, "3 n"] | None, degree: int) -> list:
     """The (degree + 1)^2 basis functions at unit directions.
 
     Args:
-        direction: unit vectors; may be None for degree 0, which has none.
+        direction: unit vectors, on the device or the host; may be None for degree 0, which has none.
         degree: 0 to 3.
 
     Returns:
