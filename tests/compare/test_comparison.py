@@ -99,6 +99,7 @@ def test_one_path_of_cameras_is_rendered_of_all(tmp_path):
         (["a=x.ply", "size=688"], "WIDTHxHEIGHT"),
         (["a=x.ply", "trajectories=[up]"], "no trajectory"),
         (["../a=x.ply"], "cannot name a method"),
+        (["a=x.ply", "quality=/nowhere/weights"], "/nowhere/weights"),
     ],
 )
 def test_a_wrong_word_is_one_line(words, says, tmp_path, capsys):

@@ -7,7 +7,7 @@ import pytest
 
 from wm.compare.agreement import agreement
 from wm.compare.axes import UP, upright
-from wm.compare.consistency import Frame, consistency, frame_of, means
+from wm.compare.consistency import DrawnFrame, consistency, frame_of, means
 from wm.compare.measuring import figures_of
 from wm.compare.painted_mesh import PaintedMesh, see
 from wm.geometry.exchange.parts import MeshPart, Paint
@@ -42,7 +42,7 @@ def unchanged(values: np.ndarray, k: int) -> np.ndarray:
     return values
 
 
-def drawn(scale: float = 1.0, *, rgb=unchanged, depth=unchanged) -> list[Frame]:
+def drawn(scale: float = 1.0, *, rgb=unchanged, depth=unchanged) -> list[DrawnFrame]:
     """The frames of a walk, with what each rendered picture or depth is changed to."""
     mesh = room(scale)
     renders = [(camera, see(mesh, camera)) for camera in walk(scale=scale)]

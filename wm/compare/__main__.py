@@ -17,6 +17,7 @@ tells what it is: a run folder, a .ply, .splat, .glb, .obj. NAME:ADAPTER=PATH gi
 METHOD.up=z  METHOD.antialias=true  METHOD.cameras=transforms.json    for files that do not say
 trajectories=FILE.json     one path of cameras (transforms.json) for all methods, in their own axes with z turned up
 frames=60 size=688x384 fov=60 fps=24
+quality=FOLDER             weights of CLIP-IQA+ and the aesthetic score (docs/evaluation.md); without them those columns are empty
 
 python -m wm.compare inputs RUN [to=[spatialgen,panorama,image]] [output=RUN/export/inputs]    what other systems start from
 """

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from wm.compare.consistency import Frame
+from wm.compare.consistency import DrawnFrame
 from wm.splat.reprojection import every, mutual_pixels, reprojection_error
 
 APART = 12
@@ -37,7 +37,7 @@ class Agreement:
     agreeing: float
 
 
-def agreement(frames: Sequence[Frame]) -> Agreement | None:
+def agreement(frames: Sequence[DrawnFrame]) -> Agreement | None:
     """The errors over all frames that lie a multiple of APART apart; None where no two see the same."""
     chosen = frames[::APART] if len(frames) > APART else frames[:: max(1, len(frames) - 1)]
     rows = [row for a, b in itertools.pairwise(chosen) for i, j in ((a, b), (b, a)) if (row := _one_way(i, j)) is not None]
@@ -48,7 +48,7 @@ def agreement(frames: Sequence[Frame]) -> Agreement | None:
     return Agreement(absrel=float(absrel), mae=float(mae), depth=float(np.median(depths)), agreeing=float(agreeing))
 
 
-def _one_way(i: Frame, j: Frame) -> tuple[float, float, float] | None:
+def _one_way(i: DrawnFrame, j: DrawnFrame) -> tuple[float, float, float] | None:
     depth, camera = every(STRIDE, i.depth, i.camera)
     both = mutual_pixels(depth, camera, j.depth, j.camera, tolerance=2.0 / STRIDE)
     error = reprojection_error(depth, camera, j.depth, j.camera, both)

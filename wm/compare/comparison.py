@@ -16,6 +16,7 @@ from wm.compare.table import Figures, MethodRow, as_csv, as_json, markdown, summ
 from wm.compare.trajectories import Picture, Trajectory, read_file
 from wm.compare.trajectories_foreign import ForeignPaths
 from wm.compare.trajectories_ours import RunPaths
+from wm.quality import Quality, open_quality
 from wm.stages.progress import Progress, progress
 
 TABLE = "comparison.md"
@@ -30,6 +31,7 @@ class ComparisonRequest:
     trajectories: tuple[str, ...]  # names, or one path of a file of cameras that all methods share
     output: pathlib.Path
     picture: Picture
+    quality: str | None = None  # weights of wm.quality, by which frames are scored
 
     @property
     def shared(self) -> pathlib.Path | None:
@@ -41,20 +43,21 @@ class ComparisonRequest:
 def compare(request: ComparisonRequest) -> str:
     """Measures what is not measured yet, writes the table in three forms, and returns it in Markdown. Raises: InputError."""
     store = Store(request.output)
-    keys = {source.method: _keys(request, source) for source in request.sources}  # wrong files are told before long work
+    quality = None if request.quality is None else open_quality(request.quality)
+    keys = {source.method: _keys(request, source, quality) for source in request.sources}  # wrong files are told before long work
     wanted = [(source, [name for name, key in keys[source.method].items() if store.known(source.method, name, key) is None])
               for source in request.sources]  # fmt: skip
     total = sum(len(names) for _, names in wanted) * request.picture.frames
     with progress("compare", total) as bar:
         for source, names in wanted:
             if names:
-                _measure_all(request, store, source, {name: keys[source.method][name] for name in names}, bar)
+                _measure_all(request, store, source, {name: keys[source.method][name] for name in names}, quality, bar)
     return _write(request, store, keys)
 
 
-def _keys(request: ComparisonRequest, source: Source) -> dict[str, str]:
+def _keys(request: ComparisonRequest, source: Source, quality: Quality | None) -> dict[str, str]:
     """The key of each trajectory of a source, by the trajectory's name."""
-    scene = identity_of(source)
+    scene = digest(identity_of(source), None if quality is None else quality.identity)
     if request.shared is not None:
         shared = request.shared
         trajectory = read_file(shared, request.picture)
@@ -62,13 +65,15 @@ def _keys(request: ComparisonRequest, source: Source) -> dict[str, str]:
     return {name: digest(scene, name, request.picture, *_CONSTANTS) for name in request.trajectories}
 
 
-def _measure_all(request: ComparisonRequest, store: Store, source: Source, keys: Mapping[str, str], bar: Progress) -> None:
+def _measure_all(
+    request: ComparisonRequest, store: Store, source: Source, keys: Mapping[str, str], quality: Quality | None, bar: Progress
+) -> None:
     scene = read_scene(source)
     draw = drawer_of(scene)
     for name, key in keys.items():
         bar.set_postfix_str(f"{source.method} {name}")
         trajectory = _trajectory(request, scene, draw, name)
-        figures = measure(trajectory, draw, store, source.method, request.picture, bar.update)
+        figures = measure(trajectory, draw, store, source.method, request.picture, done=bar.update, quality=quality)
         store.keep(source.method, name, key, figures)
 
 

@@ -35,7 +35,7 @@ HOLE = 0.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Frame:
+class DrawnFrame:
     """A rendered frame: colours clipped to [0, 1], and depths that are 0 where less than HOLE of the pixel is covered."""
 
     camera: Camera
@@ -57,10 +57,10 @@ class Consistency:
 
 def frame_of(
     camera: Camera, rgb: Float[np.ndarray, "h w 3"], depth: Float[np.ndarray, "h w"], alpha: Float[np.ndarray, "h w"]
-) -> Frame:
+) -> DrawnFrame:
     """A frame of what was rendered."""
     covered = alpha >= HOLE
-    return Frame(
+    return DrawnFrame(
         camera=camera,
         rgb=np.clip(rgb, 0, 1).astype(np.float32),
         depth=np.where(covered, depth, 0).astype(np.float32),
@@ -68,7 +68,7 @@ def frame_of(
     )
 
 
-def consistency(frame: Frame, later: Frame, *, stride: int = STRIDE) -> Consistency:
+def consistency(frame: DrawnFrame, later: DrawnFrame, *, stride: int = STRIDE) -> Consistency:
     """What a frame's depths explain of a later frame."""
     depth, camera = every(stride, frame.depth, frame.camera)
     first = stride // 2
@@ -102,7 +102,7 @@ def means(parts: list[Consistency]) -> dict[str, float]:
     return {name: value for name, value in rows.items() if value is not None}
 
 
-def _looked_up(frame: Frame, uv: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, "n"], Float[np.ndarray, "n 3"]]:
+def _looked_up(frame: DrawnFrame, uv: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, "n"], Float[np.ndarray, "n 3"]]:
     """Depth (0 where a neighbour lacks it or it lies outside) and colour at pixel positions, bilinear; depth in its inverse."""
     h, w = frame.depth.shape
     x, y = uv[:, 0] - 0.5, uv[:, 1] - 0.5

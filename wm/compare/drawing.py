@@ -17,8 +17,9 @@ from wm.types import OUTSIDE, Camera, Gaussians, Render
 
 GLIMPSE = 1 / 4
 """Share of the resolution at which the scaffold of a run of ours is cast: it tells which rooms show."""
-NEAR = 0.05
-"""Share of the scene's extent nearer than which gaussians without a metric unit are not drawn."""
+ROOM = 3.0
+"""Metres that half the extent of a scene without a metric unit is taken to be: gaussians nearer than `RasterSettings.near` to the
+eye are not drawn, 5 cm in a scene of ours."""
 
 
 @runtime_checkable
@@ -61,13 +62,23 @@ class _MeshDrawer:
 
 
 class _SplatDrawer:
+    """Draws gaussians without a metric unit as if they were ROOM across, where the rasterizer's nearest depth makes sense."""
+
     def __init__(self, gaussians: Gaussians, T_world_file: np.ndarray, *, antialias: bool, metric: bool) -> None:
-        near = RasterSettings().near if metric else NEAR * extent(np.asarray(gaussians.means))
-        self._renderer = SceneRenderer([gaussians], RasterSettings(antialias=antialias, near=near))
+        self._scale = 1.0 if metric else ROOM / extent(np.asarray(gaussians.means))
+        scaled = dataclasses.replace(
+            gaussians,
+            means=np.asarray(gaussians.means) * np.float32(self._scale),
+            log_scales=np.asarray(gaussians.log_scales) + np.float32(np.log(self._scale)),
+        )
+        self._renderer = SceneRenderer([scaled], RasterSettings(antialias=antialias))
         self._T = T_world_file
 
     def __call__(self, camera: Camera) -> Render:
-        return self._renderer.render(moved_camera(camera, self._T), [0])
+        T = moved_camera(camera, self._T).T_cam_world.copy()
+        T[:3, 3] *= self._scale
+        render = self._renderer.render(dataclasses.replace(camera, T_cam_world=T), [0])
+        return dataclasses.replace(render, depth=np.asarray(render.depth) / np.float32(self._scale))
 
 
 def extent(means: np.ndarray) -> float:

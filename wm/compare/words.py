@@ -12,7 +12,7 @@ from wm.compare.records import Source
 from wm.compare.store import check_method
 from wm.compare.trajectories import DEFAULT, Picture, parse_names
 
-_SETTINGS = ("trajectories", "output", "frames", "size", "fov", "fps")
+_SETTINGS = ("trajectories", "output", "frames", "size", "fov", "fps", "quality")
 _OPTIONS = ("up", "antialias", "cameras")
 _MOST = 16384  # pixels along a side, as of cameras.width
 
@@ -41,6 +41,7 @@ def parse(words: Sequence[str]) -> ComparisonRequest:
         trajectories=_trajectories(settings.get("trajectories")),
         output=pathlib.Path(settings.get("output") or "comparison"),
         picture=_picture(settings),
+        quality=settings.get("quality"),
     )
 
 

@@ -1,6 +1,7 @@
 """What other programs take of a finished run, one module a target: python -m wm.export RUN to=[...].
 
     __main__      the command line
+    cameras       posed images for trainers, in the forms of nerfstudio and COLMAP
     collider      what bodies run into: closed solids by room, convex parts by object
     exporting     export, exported_table: several targets of one run
     targets       TARGETS: the targets by name, and the module of each

@@ -97,5 +97,5 @@ def _files(paths: Sequence[Path], folder: Path) -> str:
     names = [path.relative_to(folder).as_posix() if path.is_relative_to(folder) else str(path) for path in paths]
     if len(names) <= 3:
         return ", ".join(names)
-    places = dict.fromkeys(name.rpartition("/")[0] + "/" if "/" in name else name for name in names)
+    places = dict.fromkeys(f"{name.partition('/')[0]}/" if "/" in name else name for name in names)
     return f"{', '.join(list(places)[:3])}{' ...' if len(places) > 3 else ''} ({len(names)} files)"

@@ -51,6 +51,7 @@ class ExportTarget:
 
 
 TARGETS: dict[str, ExportTarget] = {
+    "cameras": ExportTarget("wm.export.cameras", "posed images, masks, depth and points: nerfstudio and COLMAP"),
     "collider": ExportTarget("wm.export.collider", "closed solids by room and convex parts by object"),
     "compressed_ply": ExportTarget("wm.export.splats.compressed_ply", "gaussians in PlayCanvas's compressed PLY, y up"),
     "gltf_splats": ExportTarget("wm.export.splats.gltf_splats", "scaffold and gaussians in one GLB (KHR_gaussian_splatting)"),

@@ -9,23 +9,23 @@ from collections.abc import Sequence
 
 from wm import console
 from wm.errors import InputError
+from wm.export.words import help_text, run_and_words
 from wm.finished import open_finished
 from wm.view.server import serve
 from wm.view.site import Site, build_site, write_site
 
 BAD_INPUT = 2
-_USAGE = """usage: python -m wm.view RUN [folder=OUT] [port=N] [browser=false]
-
-Opens a page on which a finished run is walked through. Nothing is loaded from the network.
-
-  RUN            folder of a finished run, such as outputs/gothic/full/0
-  folder=OUT     write the page into a new or empty folder instead, for any web host
-  port=N         port of the page on this machine; by default one that is free
-  browser=false  only print the address"""
+_USAGE = "python -m wm.view RUN [folder=OUT] [port=N] [browser=false]"
+_SAYS = "Opens a page on which a finished run is walked through. Nothing is loaded from the network."
+_KEYS = {
+    "folder": "write the page into a new or empty folder instead, for any web host",
+    "port": "port of the page on this machine; by default one that is free",
+    "browser": "false: only print the address",
+}
 
 
 class ViewError(InputError):
-    """A word of the command line that says nothing; the message names what would be right."""
+    """A value on the command line that is none of its key; the message names what would be right."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,7 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Serves or writes the page. Returns 0, or 2 where that cannot be done; the reason is a line on standard error."""
     words = list(sys.argv[1:] if arguments is None else arguments)
     if {"-h", "--help"} & set(words):
-        console.say(_USAGE)
+        console.say(help_text(_USAGE, _SAYS, _KEYS))
         return 0
     try:
         asked = parsed(words)
@@ -61,14 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parsed(words: Sequence[str]) -> Asked:
-    """The words of a command line, as a record. Raises: ViewError."""
-    runs = [word for word in words if "=" not in word or pathlib.Path(word).exists()]
-    told = dict(word.split("=", 1) for word in words if word not in runs)
-    if len(runs) != 1 or runs[0].startswith("-"):
-        raise ViewError("give the folder of one run, such as outputs/gothic/full/0; --help says more")
-    unknown = sorted(set(told) - {"folder", "port", "browser"})
-    if unknown:
-        raise ViewError(f"there is no key {unknown[0]!r}; keys are folder, port, browser")
+    """The words of a command line, as a record. Raises: ViewError, WordsError."""
+    run, told = run_and_words(words, _KEYS)
     port, browser = told.get("port", "0"), told.get("browser", "true")
     if not (port.isascii() and port.isdigit() and int(port) < 1 << 16):
         raise ViewError(f"port={port}: a number from 0 (any that is free) to 65535")
@@ -77,7 +71,7 @@ def parsed(words: Sequence[str]) -> Asked:
     folder = told.get("folder")
     if folder == "":
         raise ViewError("folder=: name a folder")
-    return Asked(pathlib.Path(runs[0]), None if folder is None else pathlib.Path(folder), int(port), browser == "true")
+    return Asked(run, None if folder is None else pathlib.Path(folder), int(port), browser == "true")
 
 
 def _served(site: Site, asked: Asked) -> None:

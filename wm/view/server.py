@@ -64,7 +64,7 @@ def serve(site: Site, port: int = 0) -> Iterator[str]:
 
 
 def _handler(site: Site) -> type[http.server.BaseHTTPRequestHandler]:
-    class Handler(http.server.BaseHTTPRequestHandler):
+    class PageHandler(http.server.BaseHTTPRequestHandler):
         protocol_version = "HTTP/1.1"
         timeout = 60  # seconds that a connection may say nothing
 
@@ -105,4 +105,4 @@ def _handler(site: Site) -> type[http.server.BaseHTTPRequestHandler]:
         def log_message(self, format: str, *args: object) -> None:
             """Says nothing: a page asks for twenty files."""
 
-    return Handler
+    return PageHandler

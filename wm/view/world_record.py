@@ -77,13 +77,13 @@ def _object(plan: FloorPlan, thing: SceneObject) -> dict[str, Any]:
     """An object's row; `outline` is its convex outline from above, where it is drawn in the floor plan."""
     low = float(thing.vertices[:, 2].min())
     hull = shapely.MultiPoint(thing.vertices[:, :2]).convex_hull
-    drawn = low < _CEILING and isinstance(hull, shapely.Polygon)
+    outline = np.round(shapely.get_coordinates(hull.exterior), 3).tolist() if isinstance(hull, shapely.Polygon) else None
     return {
         "id": thing.id,
         "label": thing.label,
         "room": plan.rooms[thing.room].id,
         "size": np.round(thing.size, 3).tolist(),
-        "outline": np.round(shapely.get_coordinates(hull.exterior), 3).tolist() if drawn else None,
+        "outline": outline if low < _CEILING else None,
     }
 
 

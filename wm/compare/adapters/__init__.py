@@ -3,7 +3,6 @@
     registry       adapter_for, identity_of, read_scene: every adapter by name
     files          one_file, reading: files found and read, with errors that name the method
     own_cameras    own_cameras: the transforms.json beside a scene, and which way is up by it
-    splat_rows     read_splat: the rows of a .splat
     ours           a run folder
     wonderworld    .splat, and a PLY with activations of its own
     flexworld      PLY with colours as logits

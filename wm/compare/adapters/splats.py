@@ -1,4 +1,4 @@
-"""Any file of gaussians: PLY of INRIA, 2DGS, nerfstudio and PlayCanvas, point clouds, and .splat.
+"""Any file of gaussians: PLY of INRIA, 2DGS, nerfstudio and PlayCanvas, point clouds, .splat, SPZ, SOG, GLB with gaussians.
 
 Which way is up is `METHOD.up`, or what its cameras hold for up, or z. Antialiasing is `METHOD.antialias`, or what a PLY says.
 """
@@ -7,11 +7,11 @@ import pathlib
 
 from wm.compare.adapters.files import check_some, one_file, reading
 from wm.compare.adapters.own_cameras import own_cameras
-from wm.compare.adapters.splat_rows import read_splat
 from wm.compare.records import ComparedScene, Source, System
-from wm.splat import load_ply, splat_render_mode
+from wm.splat import splat_render_mode
+from wm.splat.formats import load_splats
 
-SUFFIXES = (".ply", ".splat")
+SUFFIXES = (".ply", ".splat", ".spz", ".sog")
 SYSTEM = System(
     name="any gaussians",
     file=", ".join(SUFFIXES),
@@ -36,11 +36,10 @@ def files(source: Source) -> list[pathlib.Path]:
 def read(source: Source) -> ComparedScene:
     """The scene, with the cameras of the transforms.json beside it. Raises: CompareError."""
     file = files(source)[0]
-    is_splat = file.suffix.lower() == ".splat"
-    gaussians = reading(source, file, _EXPECTED, read_splat if is_splat else load_ply)
+    gaussians = reading(source, file, _EXPECTED, load_splats)
     check_some(source, file, len(gaussians.means), _EXPECTED)
-    told = not is_splat and splat_render_mode(file) == "mip"
-    own = own_cameras(source, file)
+    told = file.suffix.lower() == ".ply" and splat_render_mode(file) == "mip"
+    own = own_cameras(source, file, up="y" if file.suffix.lower() == ".glb" else "z")
     return ComparedScene(
         method=source.method,
         gaussians=gaussians,

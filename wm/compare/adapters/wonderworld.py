@@ -11,10 +11,10 @@ import pathlib
 import numpy as np
 
 from wm.compare.adapters.files import check_some, one_file, reading
-from wm.compare.adapters.splat_rows import read_splat
 from wm.compare.axes import UP, upright
 from wm.compare.records import ComparedScene, Source, System
 from wm.splat import load_ply
+from wm.splat.formats import load_splats
 from wm.splat.rasterizer.harmonics import SH_C0
 from wm.types import Gaussians
 
@@ -45,7 +45,7 @@ def read(source: Source) -> ComparedScene:
     if file.suffix == ".ply":
         gaussians = activated(reading(source, file, _EXPECTED, load_ply))
     else:
-        gaussians = reading(source, file, _EXPECTED, read_splat)
+        gaussians = reading(source, file, _EXPECTED, load_splats)
     check_some(source, file, len(gaussians.means), _EXPECTED)
     return ComparedScene(method=source.method, gaussians=gaussians, R_world_file=upright(UP["y"]), eye=np.zeros(3))
 

@@ -21,7 +21,7 @@ _BOX_FACES = np.array([
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Box:
+class ThingBox:
     """The oriented box of a thing."""
 
     id: str
@@ -37,7 +37,7 @@ class RoomLayout:
 
     rays: RayScene
     face_color: np.ndarray  # [f, 3] uint8
-    boxes: tuple[Box, ...]
+    boxes: tuple[ThingBox, ...]
 
 
 def room_layout(run: FinishedRun, room: int, *, around: Float[np.ndarray, "n 3"] | None = None) -> RoomLayout:
@@ -59,7 +59,7 @@ def room_layout(run: FinishedRun, room: int, *, around: Float[np.ndarray, "n 3"]
     return RoomLayout(rays=build_ray_scene(mesh), face_color=np.concatenate(colors), boxes=boxes)
 
 
-def box_of(thing: SceneObject) -> Box:
+def box_of(thing: SceneObject) -> ThingBox:
     """The box of a thing along its own axes."""
     T = np.asarray(thing.T_world_object, np.float64)
     rotation = T[:3, :3] / np.linalg.norm(T[:3, :3], axis=0)
@@ -69,10 +69,10 @@ def box_of(thing: SceneObject) -> Box:
     T_world_box[:3, :3] = rotation
     T_world_box[:3, 3] = rotation @ ((low + high) / 2) + T[:3, 3]
     label, color = class_of(thing.label)
-    return Box(id=thing.id, label=label, color=color, T_world_box=T_world_box, size=np.maximum(high - low, 0.01))
+    return ThingBox(id=thing.id, label=label, color=color, T_world_box=T_world_box, size=np.maximum(high - low, 0.01))
 
 
-def _holds(box: Box, places: Float[np.ndarray, "n 3"]) -> bool:
+def _holds(box: ThingBox, places: Float[np.ndarray, "n 3"]) -> bool:
     local = (places - box.T_world_box[:3, 3]) @ box.T_world_box[:3, :3]
     return bool((np.abs(local) < box.size / 2).all(axis=1).any())
 

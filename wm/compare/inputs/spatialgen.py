@@ -37,7 +37,7 @@ from wm.geometry.rays.pinhole import make_camera
 from wm.types import OUTSIDE, Camera, SurfaceKind
 
 VIEWS, SIDE, FOV = 16, 512, 90.0
-RADII = (0.5, 0.35, 0.2, 0.1, 0.0)  # metres of the circle that are tried, until all its places are free
+RADII = (0.5, 0.35, 0.2, 0.1)  # metres of the circle that are tried, until all its places are free; else all stand at its middle
 CLEARANCE = 0.2  # metres of free air round each
 FARTHEST = 65.535  # metres, of 16 bits of millimetres
 _KINDS: dict[int, Color] = {SurfaceKind.FLOOR: FLOOR, SurfaceKind.CEILING: CEILING, SurfaceKind.PANE: WINDOW}
@@ -58,10 +58,8 @@ def circle(run: FinishedRun, room: int) -> list[Camera]:
     middle = standing_place(run, room)
     angles = np.arange(VIEWS) * 2 * np.pi / VIEWS
     outwards = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(VIEWS)])
-    for radius in RADII:
-        eyes = middle + radius * outwards
-        if radius == 0 or free(run.rays, eyes, CLEARANCE).all():
-            break
+    circles = (middle + radius * outwards for radius in RADII)
+    eyes = next((places for places in circles if free(run.rays, places, CLEARANCE).all()), middle + 0 * outwards)
     return [make_camera(eye, eye + ahead, width=SIDE, height=SIDE, fov_deg=FOV) for eye, ahead in zip(eyes, outwards)]
 
 

@@ -16,5 +16,6 @@
     wavefront    meshes as OBJ and STL
     rotations    rotations as the formats write them
     identifiers  names that every format takes
+    library      library: mujoco, usd-core and yourdfpy, when they are needed
     files        the files of one target, written whole
 """

@@ -74,7 +74,7 @@ def _looks(structure: Mesh, kind: SurfaceKind, faces: Int[np.ndarray, "f"], pain
     for image in np.unique(source).tolist():
         mine = faces[source == image]
         corners = structure.vertices[structure.faces[mine]].reshape(-1, 3)
-        textured = painted is not None and image >= 0
+        texture = None if painted is None or image < 0 else painted.texture(image, mine)
         yield Appearance(
             vertices=corners,
             faces=np.arange(len(corners), dtype=np.int32).reshape(-1, 3),
@@ -82,8 +82,8 @@ def _looks(structure: Mesh, kind: SurfaceKind, faces: Int[np.ndarray, "f"], pain
             slots=(kind.name.lower(),),
             slot_colors=np.array([_COLORS[kind]], np.float32),
             emission=np.zeros(1, np.float32),
-            texture=Texture(painted.images[image], painted.corner_uv[mine], np.ones(1, bool)) if textured else None,
-            unlit=textured,
+            texture=texture,
+            unlit=texture is not None,
         )
 
 
@@ -94,6 +94,10 @@ class _Painted:
     images: Sequence[np.ndarray]
     source: np.ndarray  # [f] index into images, -1 of a face without one
     corner_uv: np.ndarray  # [f, 3, 2] float32
+
+    def texture(self, image: int, faces: Int[np.ndarray, "f"]) -> Texture:
+        """An image on some faces of the structure."""
+        return Texture(self.images[image], self.corner_uv[faces], np.ones(1, bool))
 
 
 def _painted(run: FinishedRun) -> _Painted | None:
@@ -109,7 +113,7 @@ def _painted(run: FinishedRun) -> _Painted | None:
         if part.paint.image is None or part.corner_uv is None:
             continue
         theirs = part.corners @ _Y_UP_TO_Z_UP.T
-        face = near.query(theirs.mean(axis=1))[1]
+        face = np.asarray(near.query(theirs.mean(axis=1))[1])
         gap = np.linalg.norm(corners[face][:, :, None] - theirs[:, None, :], axis=-1)
         same = gap.min(axis=2).max(axis=1) < _NEAR
         order = gap.argmin(axis=2)[same]

@@ -16,6 +16,7 @@ from wm.export.simulation.bodies import Body, rigid_body
 from wm.export.simulation.files import write_files
 from wm.export.simulation.house import House, simulated
 from wm.export.simulation.hulls import Hull
+from wm.export.simulation.library import library
 from wm.export.simulation.looks import Appearance, body_appearance
 from wm.export.simulation.rotations import quaternion
 from wm.export.simulation.settling import Settled, settle
@@ -73,9 +74,9 @@ class _Model:
     """The model under construction, and the files that it names."""
 
     def __init__(self, run: FinishedRun, house: House) -> None:
-        import mujoco
+        mujoco = library("mujoco")
 
-        self.mujoco: Any = mujoco
+        self.mujoco = mujoco
         self.run, self.house = run, house
         self.assets: dict[str, bytes] = {}
         self.spec: Any = mujoco.MjSpec()
@@ -156,7 +157,7 @@ class _Model:
 
 def _differences(run: FinishedRun, path: Path) -> list[str]:
     """In what a file, as MuJoCo reads it, differs from the run."""
-    import mujoco
+    mujoco = library("mujoco")
 
     try:
         model = mujoco.MjModel.from_xml_path(str(path))

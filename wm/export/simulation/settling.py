@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
+from wm.export.simulation.library import library
+
 FARTHEST = 0.02  # metres
 STEEPEST = 5.0  # degrees by which an object leans
 
@@ -34,7 +36,7 @@ def settle(path: Path, seconds: float = 2.0) -> Settled:
 
     A simulation that breaks up counts as moved and tipped: MuJoCo starts it anew or leaves numbers that are not finite.
     """
-    import mujoco
+    mujoco = library("mujoco")
 
     model = mujoco.MjModel.from_xml_path(str(path))
     data = mujoco.MjData(model)

@@ -18,6 +18,7 @@ from wm.export.simulation.bodies import Body
 from wm.export.simulation.files import write_files
 from wm.export.simulation.house import House, simulated
 from wm.export.simulation.hulls import Hull
+from wm.export.simulation.library import library
 from wm.export.simulation.looks import Appearance, body_appearance
 from wm.export.simulation.rotations import roll_pitch_yaw
 from wm.export.simulation.shell import prisms
@@ -122,7 +123,7 @@ def _text(numbers: Sequence[float] | np.ndarray) -> str:
 
 def _differences(house: House, path: Path) -> list[str]:
     """In what a file, as yourdfpy reads it, differs from the house."""
-    import yourdfpy
+    yourdfpy = library("yourdfpy")
 
     try:
         with warnings.catch_warnings():

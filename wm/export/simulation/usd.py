@@ -21,6 +21,7 @@ from wm.export.records import Check, ExportError
 from wm.export.simulation.bodies import Body
 from wm.export.simulation.files import write_files
 from wm.export.simulation.house import House, simulated
+from wm.export.simulation.library import library
 from wm.export.simulation.usd_splats import splat_differences, splat_layer
 from wm.export.simulation.usd_stage import SPLATS, layer_bytes, stage_files
 from wm.finished import FinishedRun
@@ -36,7 +37,7 @@ def write(run: FinishedRun, folder: Path) -> Sequence[Path]:
     """
     house = simulated(run)
     splats = splat_layer(run, house)
-    files: dict[str, bytes | str] = stage_files(run, house, MAIN, None if splats is None else SPLAT_FILE)
+    files = stage_files(run, house, MAIN, None if splats is None else SPLAT_FILE)
     if splats is not None:
         files[SPLAT_FILE] = layer_bytes(splats)
     paths = write_files(folder / FOLDER, files, MAIN)
@@ -60,7 +61,7 @@ def check(run: FinishedRun, folder: Path) -> Sequence[Check]:
 
 def _findings(path: Path) -> list[str]:
     """What the validators of usd-core say of a stage, its payloads loaded."""
-    from pxr import Usd, UsdValidation
+    Usd, UsdValidation = (library(f"pxr.{name}") for name in ("Usd", "UsdValidation"))
 
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     found = UsdValidation.ValidationContext(validators).Validate(Usd.Stage.Open(str(path)))
@@ -69,7 +70,7 @@ def _findings(path: Path) -> list[str]:
 
 def _differences(run: FinishedRun, house: House, path: Path) -> list[str]:
     """In what a file, as usd-core reads it, differs from the run."""
-    from pxr import Tf, Usd, UsdGeom, UsdPhysics
+    Tf, Usd, UsdGeom, UsdPhysics = (library(f"pxr.{name}") for name in ("Tf", "Usd", "UsdGeom", "UsdPhysics"))
 
     try:
         stage = Usd.Stage.Open(str(path))
@@ -88,7 +89,7 @@ def _differences(run: FinishedRun, house: House, path: Path) -> list[str]:
 
 
 def _body_differences(body: Body, prim: Any, pose: np.ndarray) -> Iterator[str]:
-    from pxr import Usd, UsdGeom, UsdPhysics, UsdSemantics
+    Usd, UsdGeom, UsdPhysics, UsdSemantics = (library(f"pxr.{name}") for name in ("Usd", "UsdGeom", "UsdPhysics", "UsdSemantics"))
 
     gap = np.abs(pose - body.T_world_body).max()
     if not gap < 1e-9 * (1 + np.abs(body.T_world_body[:3, 3]).max()):

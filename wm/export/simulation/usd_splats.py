@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from wm.export.simulation.house import House
+from wm.export.simulation.library import library
 from wm.finished import FinishedRun
 from wm.stages.reconstruction import BY_ROOM
 
@@ -23,7 +24,7 @@ def is_fitted(run: FinishedRun) -> bool:
 
 def splat_layer(run: FinishedRun, house: House) -> Any | None:
     """A layer with the gaussians of a run that has some; None of a run that is not fitted yet."""
-    from pxr import Sdf, Usd, UsdGeom
+    Sdf, Usd, UsdGeom = (library(f"pxr.{name}") for name in ("Sdf", "Usd", "UsdGeom"))
 
     if not is_fitted(run):
         return None
@@ -40,7 +41,7 @@ def splat_layer(run: FinishedRun, house: House) -> Any | None:
 
 
 def _add_room(stage: Any, path: str, run: FinishedRun, mine: np.ndarray) -> None:
-    from pxr import UsdVol, Vt
+    UsdVol, Vt = (library(f"pxr.{name}") for name in ("UsdVol", "Vt"))
 
     splats, gaussians = UsdVol.ParticleField3DGaussianSplat.Define(stage, path), run.gaussians
     means, quats, log_scales, logits, sh = (
@@ -63,7 +64,7 @@ def _add_room(stage: Any, path: str, run: FinishedRun, mine: np.ndarray) -> None
 
 def splat_differences(run: FinishedRun, house: House, stage: Any, root: str) -> Iterator[str]:
     """In what the splats under a prim of a stage differ from the run's."""
-    from pxr import UsdVol
+    UsdVol = library("pxr.UsdVol")
 
     for index, name in enumerate(house.rooms if is_fitted(run) else ()):
         means = np.asarray(run.gaussians.means)[run.gaussian_room == index]

@@ -11,6 +11,7 @@ from wm.export.simulation.bodies import Body
 from wm.export.simulation.house import House
 from wm.export.simulation.hulls import Hull
 from wm.export.simulation.identifiers import identifiers
+from wm.export.simulation.library import library
 from wm.export.simulation.looks import Appearance, HousePart, body_appearance
 from wm.export.simulation.rotations import quaternion
 from wm.export.simulation.shell import prisms
@@ -41,7 +42,10 @@ class _Stage:
     """The stage under construction."""
 
     def __init__(self, run: FinishedRun, house: House) -> None:
-        from pxr import Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade
+        Gf, Kind, Sdf, Usd, UsdGeom, UsdLux, UsdPhysics, UsdSemantics, UsdShade = (
+            library(f"pxr.{name}")
+            for name in ("Gf", "Kind", "Sdf", "Usd", "UsdGeom", "UsdLux", "UsdPhysics", "UsdSemantics", "UsdShade")
+        )
 
         self.Gf, self.Sdf, self.UsdGeom, self.UsdLux, self.UsdPhysics = Gf, Sdf, UsdGeom, UsdLux, UsdPhysics
         self.UsdSemantics, self.UsdShade = UsdSemantics, UsdShade
@@ -142,7 +146,7 @@ class _Stage:
         return prim
 
     def _mesh(self, path: str, vertices: np.ndarray, faces: np.ndarray) -> Any:
-        from pxr import Vt
+        Vt = library("pxr.Vt")
 
         mesh = self.UsdGeom.Mesh.Define(self.stage, path)
         points = np.ascontiguousarray(vertices, np.float32)
@@ -155,7 +159,7 @@ class _Stage:
 
     def _add_mesh(self, path: str, look: Appearance, *, double_sided: bool = False) -> None:
         """The surface, a subset of its faces for each of its materials."""
-        from pxr import Vt
+        Vt = library("pxr.Vt")
 
         mesh = self._mesh(path, look.vertices, look.faces)
         mesh.CreateDoubleSidedAttr(double_sided)

@@ -28,7 +28,10 @@ class SplatCopy:
     def gaussians(self, run: FinishedRun) -> Gaussians:
         """What the file holds: the run's gaussians with y up, in the order of the file."""
         turned = packable(to_y_up(run.gaussians))
-        return turned if self.order is None else jax.tree.map(lambda leaf: leaf[self.order(turned)], turned)
+        if self.order is None:
+            return turned
+        order = self.order(turned)
+        return jax.tree.map(lambda leaf: leaf[order], turned)
 
     def write(self, run: FinishedRun, folder: Path) -> list[Path]:
         """Writes the file and reads it back.

@@ -96,7 +96,8 @@ def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
     """
     owned = [(k, number, _ring(room, ring)) for k, room in enumerate(plan.rooms) for number, ring in enumerate(_rings(room))]
     rings = [ring for _, _, ring in owned]
-    room, number = (np.repeat([row[part] for row in owned], [len(ring) for ring in rings]) for part in (0, 1))
+    sizes = [len(ring) for ring in rings]
+    room, number = np.repeat([k for k, _, _ in owned], sizes), np.repeat([number for _, number, _ in owned], sizes)
     start = np.concatenate(rings)
     span = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]) - start
     length = np.linalg.norm(span, axis=1)

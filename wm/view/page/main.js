@@ -142,9 +142,10 @@ class Viewer {
 
   nextRoom(step) {
     const { rooms } = this.world;
-    let k = this.roomShown ?? 0;
+    const now = this.visitor.room >= 0 ? this.visitor.room : (this.roomShown ?? 0);
+    let k = now;
     do k = (k + step + rooms.length) % rooms.length;
-    while (!rooms[k].spawn && k !== this.roomShown);
+    while (!rooms[k].spawn && k !== now);
     if (rooms[k].spawn) this.goTo(k);
   }
 
