@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from wm.artifacts.atomic import write_atomically
 from wm.export.records import Check, ExportError
@@ -94,7 +94,7 @@ def _deviation(thing: SceneObject, read: list[np.ndarray] | None) -> float:
     if not read:
         return float("inf")
     used, found = thing.vertices[np.unique(thing.faces)], np.concatenate(read)
-    return float(max(cKDTree(found).query(used)[0].max(), cKDTree(used).query(found)[0].max()))
+    return float(max(KDTree(found).query(used)[0].max(), KDTree(used).query(found)[0].max()))
 
 
 def _rooms(document: dict[str, Any]) -> set[str]:

@@ -8,6 +8,7 @@ edges. Pockets that a body cannot leave or enter, behind a sofa for instance, ar
 
 import dataclasses
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import shapely
@@ -71,7 +72,7 @@ def build_navmesh(plan: FloorPlan, objects: Sequence[SceneObject], settings: Nav
 
 def main_parts(area: BaseGeometry, floors: Sequence[shapely.Polygon]) -> list[shapely.Polygon]:
     """The pieces of an area that are the largest piece of some room, the largest first."""
-    pieces = np.array(shapely.get_parts(area), dtype=object)
+    pieces: Any = shapely.get_parts(area)
     tree, kept = shapely.STRtree(pieces), set()
     for floor in floors:
         near = np.sort(tree.query(floor, predicate="intersects"))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 from jaxtyping import Float
+from shapely.geometry.base import BaseGeometry
 
 from wm.geometry.placement.navmesh import Navmesh
 from wm.geometry.plan.footprint import interior_polygon
@@ -94,7 +95,7 @@ def _behind(portal: Portal, navmesh: Navmesh, part: int) -> Spawn | None:
     return Spawn((round(float(nearest[0]), 4), round(float(nearest[1]), 4), 0.0), round(yaw, 1), room, part, clearance)
 
 
-def _area(navmesh: Navmesh, mine: np.ndarray) -> shapely.Geometry:
+def _area(navmesh: Navmesh, mine: np.ndarray) -> BaseGeometry:
     """The union of some triangles."""
     return shapely.union_all(shapely.polygons(navmesh.vertices[navmesh.triangles[mine], :2]))
 
