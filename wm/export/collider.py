@@ -27,6 +27,7 @@ from wm.finished import FinishedRun
 from wm.geometry.mesh.glb import save_glb
 from wm.geometry.mesh.glb_nodes import GlbNode
 from wm.geometry.mesh.labelled_solids import polygon_rings
+from wm.geometry.plan.walls import room_polygons
 from wm.geometry.rays.raycast import build_ray_scene, cast_rays
 from wm.geometry.rays.surface_points import surface_points
 from wm.types import Mesh, SceneObject
@@ -73,8 +74,8 @@ def room_solids(run: FinishedRun) -> list[Solid]:
     structure = run.structure
     whole = manifold3d.Manifold(manifold3d.Mesh64(np.array(structure.vertices), np.array(structure.faces, np.uint64)))
     solids = []
-    for room in run.plan.rooms:
-        outline = shapely.orient_polygons(shapely.Polygon(room.polygon).buffer(OVERLAP, join_style="mitre"))
+    for room, polygon in zip(run.plan.rooms, room_polygons(run.plan)):
+        outline = shapely.orient_polygons(polygon.buffer(OVERLAP, join_style="mitre"))
         rings = [np.ascontiguousarray(ring) for ring in polygon_rings(outline)]
         height = room.ceiling_height + 2 * _REACH
         prism = manifold3d.Manifold.extrude(manifold3d.CrossSection(rings), height).translate((0.0, 0.0, -_REACH))

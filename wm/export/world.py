@@ -165,8 +165,7 @@ def _room(run: FinishedRun, k: int, spawn: Spawn | None, usd: str, splats: list[
 
 
 def _opening(number: int, portal: Portal, run: FinishedRun) -> dict[str, Any]:
-    outside = portal.rooms[1] < 0
-    kind = "entrance" if outside and portal.kind == "door" else portal.kind
+    kind = "entrance" if portal.is_entrance else portal.kind
     return {
         "id": f"{kind}_{number}",
         "kind": kind,

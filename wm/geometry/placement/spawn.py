@@ -10,11 +10,10 @@ from jaxtyping import Float
 from shapely.geometry.base import BaseGeometry
 
 from wm.geometry.placement.navmesh import Navmesh
+from wm.geometry.plan.connected import entrances
 from wm.geometry.plan.footprint import interior_polygon
-from wm.geometry.plan.openings import portals
 from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan
-from wm.types import OUTSIDE
 
 _TOLERANCE = 0.02  # metres, of the point farthest from walls
 _DIRECTIONS = 16  # in which the view from a place is measured
@@ -65,11 +64,10 @@ def _room_spawn(plan: FloorPlan, navmesh: Navmesh, room: int) -> Spawn | None:
 
 def _part_spawn(plan: FloorPlan, navmesh: Navmesh, rooms: Sequence[Spawn | None], part: int) -> Spawn:
     mine = [spawn for spawn in rooms if spawn is not None and spawn.part == part]
-    for portal in portals(plan):
-        if portal.kind == "door" and portal.rooms[1] == OUTSIDE:
-            entered = _behind(portal, navmesh, part)
-            if entered is not None:
-                return entered
+    for portal in entrances(plan):
+        entered = _behind(portal, navmesh, part)
+        if entered is not None:
+            return entered
     if mine:
         return max(mine, key=lambda spawn: float(navmesh.areas[(navmesh.room == spawn.room) & (navmesh.part == part)].sum()))
     room = int(navmesh.room[navmesh.part == part].max())
@@ -114,5 +112,5 @@ def _longest_view(point: tuple[float, float], floor: shapely.Polygon) -> float:
     reach = math.hypot(high_x - low_x, high_y - low_y)
     ends: Float[np.ndarray, "d 2"] = np.asarray(point) + reach * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     rays = shapely.linestrings(np.stack([np.broadcast_to(point, ends.shape), ends], axis=1))
-    hits = shapely.distance(shapely.intersection(rays, floor.exterior), shapely.Point(point))
+    hits = shapely.distance(shapely.intersection(rays, floor.boundary), shapely.Point(point))
     return float(np.degrees(angles[int(np.nanargmax(np.round(hits, 6)))]))
