@@ -5,7 +5,7 @@ import json
 import pytest
 
 from wm.artifacts.run_folder import open_run_folder
-from wm.geometry.mesh.glb import object_nodes
+from wm.geometry.mesh.glb_nodes import object_nodes
 from wm.meter import StageMeter
 from wm.run import load_config
 from wm.stages import scene as stage

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import shutil
 
 import pytest
 
@@ -9,6 +10,7 @@ from tests.synth.recording import recorded, with_recording
 from wm import pipeline
 from wm.artifacts.run_folder import RunFolder, open_run_folder
 from wm.errors import ArtifactError
+from wm.export.records import ExportError
 from wm.geometry import PlanError
 from wm.meter import StageMeter
 from wm.metric_table import METRICS
@@ -58,6 +60,16 @@ def test_everything_promised_is_there(whole):
     assert set(json.loads((whole / "metrics.json").read_text())) == set(METRICS)
     assert json.loads((whole / "metrics.json").read_text())["views"] == len(list((whole / "views").rglob("*.depth.png")))
     assert {"plan", "paint", "reconstruct", "evaluate", "report"} <= set(json.loads((whole / "timings.json").read_text()))
+
+
+def test_a_run_exports_at_its_end_and_refuses_unknown_targets_at_its_beginning(whole, tmp_path, capsys):
+    shutil.copytree(whole, tmp_path / "run")
+    run(load_config([*SMALL, "export=[navmesh]"]), tmp_path / "run")
+    assert (tmp_path / "run" / "export" / "navmesh.json").is_file()
+    assert "nothing to do" in capsys.readouterr().out  # what is exported does not identify the run
+    with pytest.raises(ExportError, match="no target 'bla'"):
+        run(load_config([*SMALL, "export=[bla]"]), tmp_path / "refused")
+    assert not (tmp_path / "refused").exists()
     assert "<svg" in (whole / "report.html").read_text()
     curve = read_history(whole / "stages/history.json")
     assert len(curve) == 2 and all(point[name] is not None for point in curve for name in ("psnr", "m_mae", "n_ang_deg"))

@@ -24,6 +24,7 @@ Importing `wm` itself loads none of its modules. Each imports only those below i
     models        backends of real models
     splat         gaussian splatting: rasterizer, fit, metrics
     synth         the method: protocols of backends, condition, verification, painting, lifting, proposing
+    quality       CLIP-IQA+ and the aesthetic score of images
     geometry      plans, meshes, rays, texture, cameras, placement
     numerics      guards, each correct in value and gradient
     validate      whether a configuration can be run

@@ -19,7 +19,8 @@ from wm.artifacts.confined import confined
 from wm.artifacts.digests import digest
 from wm.artifacts.manifest import Manifest, ManifestDamage, read_manifest
 from wm.errors import InputError
-from wm.geometry import FloorPlan, RayScene, assemble_scene, build_ray_scene, build_structure, load_cameras, load_plan
+from wm.geometry import FloorPlan, RayScene, assemble_scene, build_ray_scene, build_structure, load_cameras
+from wm.geometry.plan.loading import stored_plan
 from wm.schema import CameraSettings, NavigationSettings, RasterSettings
 from wm.stages.arranged import arranged
 from wm.stages.painting import SCAFFOLD
@@ -65,7 +66,7 @@ class FinishedRun:
 
     @functools.cached_property
     def plan(self) -> FloorPlan:
-        return load_plan(self.file(PLAN))
+        return stored_plan(self.file(PLAN))
 
     @property
     def rooms(self) -> list[str]:

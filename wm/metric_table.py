@@ -78,6 +78,12 @@ _ROWS = (
            "Mean |z_ij - D_j| / D_j over the same pixels."),
     Metric("holes", "Holes", "%", ".2f", "lower",
            "Share of the pixels that hit the scaffold at which the opacity of the splats is below 0.5."),
+    Metric("clip_iqa", "IQA+", "", ".4f", "higher",
+           "CLIP-IQA+ of the render, from 0 to 1: how likely CLIP takes it for a good photo rather than a bad one; only where "
+           "`evaluate.quality` has its weights."),
+    Metric("aesthetic", "Aesthetic", "", ".4f", "higher",
+           "LAION's aesthetic score of the render, from about 1 to 10: the mark that people would give it, predicted from its "
+           "CLIP embedding; only where `evaluate.quality` has its weights."),
     Metric("navigability", "Navigability", "%", ".1f", "higher",
            "Share of the free cells of the floor (a grid of 0.15 m; objects that stand on the floor are obstacles) that lie in "
            "the largest 4-connected component."),
@@ -128,8 +134,8 @@ def metrics_page() -> str:
     table = tabulate(rows, ("key", "metric", "unit", "better", "definition"), tablefmt="github", disable_numparse=True)
     intro = (
         "What each key of `metrics.json` means. Shares are stored as 0 to 1 and shown in percent; a metric that was not measured "
-        "is `null`.\nMetrics from PSNR to Holes are computed for each held-out view, or for each pair of them, and averaged. The "
-        "definitions are ours, since the paper gives none.\nThis page is printed by `python -m wm.metric_table`."
+        "is `null`.\nMetrics from PSNR to Aesthetic are computed for each held-out view, or for each pair of them, and averaged. "
+        "The definitions are ours, since the paper gives none.\nThis page is printed by `python -m wm.metric_table`."
     )
     return f"# Metrics\n\n{intro}\n\n{table}\n"
 

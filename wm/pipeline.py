@@ -20,10 +20,15 @@ from wm.artifacts.run_folder import open_run_folder
 from wm.artifacts.timings import TIMINGS, UNKNOWN, Rows, read_rows
 from wm.environment import shown_identity
 from wm.errors import ArtifactError
+from wm.export.exporting import FOLDER as EXPORT_FOLDER
+from wm.export.exporting import export, exported_table
+from wm.export.targets import check_targets
+from wm.finished import open_finished
 from wm.geometry.plan.loading import read_plan_file
 from wm.host import prepare_process
 from wm.meter import StageMeter
 from wm.metric_table import METRICS
+from wm.quality import check_quality
 from wm.schema import STAGES, RunConfig
 from wm.services.ledger import Ledger
 from wm.splat.optimization.padding import Capacity
@@ -59,12 +64,17 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
 
     Raises:
       ArtifactError: the folder is in use, or holds a run of another configuration.
+      ExportError: a target of `export` is unknown or lacks its extra.
       PlanError, ProposalError, ValueError: the plan or the views cannot be made as configured; the message says why.
       OSError: the folder cannot be written.
     """
     prepare_process()
+    check_targets(config.export)
     if config.plan.file is not None:
-        read_plan_file(config.plan.file)  # raises before a folder is made
+        # raises before a folder is made
+        read_plan_file(config.plan.file, repair=config.plan.repair, unreachable=config.plan.unreachable)
+    if config.evaluate.quality is not None:
+        check_quality(config.evaluate.quality)
     meter = StageMeter(keep=functools.partial(_keep_timings, folder))
     account = functools.partial(_account, meter, folder)
     lend = Neighbours(neighbours, say=console.say, account=account).lend
@@ -85,7 +95,16 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
             return {}
         store.drop_unasked()
         console.say(_summary(context, metrics))
-        return metrics
+    if config.export:
+        _export(config, folder)
+    return metrics
+
+
+def _export(config: RunConfig, folder: pathlib.Path) -> None:
+    """Writes the targets that the configuration asks for into the folder of the finished run."""
+    target = folder / EXPORT_FOLDER
+    console.say(exported_table(export(open_finished(folder), config.export, target), target))
+    console.say(f"exported: {target}")
 
 
 def _run_stages(context: RunContext) -> dict:

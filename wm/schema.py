@@ -41,6 +41,12 @@ class PlanConfig:
     """Where the floor plan comes from."""
 
     file: str | None = setting(None, "A plan of the user's own; None asks the language backend.")
+    repair: bool = setting(
+        False, "Mend a plan of the user's own: walls drawn as gaps, rooms that overlap, openings that do not fit their walls."
+    )
+    unreachable: str = choice(
+        "warn", ("warn", "refuse"), "What to do with rooms of the user's own plan that no door or passage leads to."
+    )
     seed: int | None = number(None, 0, 2**63 - 1, "Seed of the floor plan; None: that of the run.", null="seed")
     max_iterations: int = number(8, 1, 1000, "Propose - validate - correct rounds before giving up.")
 
@@ -219,6 +225,9 @@ class NavigationSettings:
 @dataclass(kw_only=True, unsafe_hash=True)
 class EvaluateConfig:
     min_overlap: float = number(0.3, 0, 1, "Share of shared surface for a reprojection pair.")
+    quality: str | None = setting(
+        None, "Folder with the weights of CLIP-IQA+ and the aesthetic score; null: they are not measured.", **READ, **BESIDE
+    )
 
 
 @dataclass(kw_only=True, unsafe_hash=True)
@@ -313,6 +322,9 @@ class RunConfig:
         True, "Take finished stages over from runs of other variants beside this one, where they are the same.", **BESIDE
     )
     overwrite: bool = setting(False, "A folder made by another configuration is refused unless this is true.", **BESIDE)
+    export: list[str] = field(
+        default_factory=list, metadata={"help": "What to write for other programs: python -m wm.export --help.", **BESIDE}
+    )
     until: str = choice(STAGES[-1], STAGES, "Stage after which the run stops; the same command without it goes on.", **BESIDE)
     executor: str = choice("threads", ("threads",), "What rooms are fitted by, side by side.", **BESIDE)
     workers: int | None = number(

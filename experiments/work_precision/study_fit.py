@@ -78,6 +78,6 @@ def heldout_errors(gaussians, room: bench.Room) -> dict[str, float]:
     rows = []
     for view, target in zip(room.cameras, room.heldout):
         image = jax.tree.map(np.asarray, render(gaussians, target.camera, settings=RasterSettings()))
-        row = _alignment(room.scene, Seen(view=view, render=image, gbuffer=cast(room.scene.rays, view.camera)))
+        row = _alignment(room.scene, Seen(view=view, render=image, gbuffer=cast(room.scene.rays, view.camera)), depth=True)
         rows.append(row | {"psnr": psnr(image.rgb, target.rgb / np.float32(255))})
     return {name: float(np.mean([row[name] for row in rows])) for name in ("psnr", "m_mae", "n_ang_deg")}

@@ -56,7 +56,7 @@ def serve(session: Session, port: int = 0) -> Iterator[str]:
 
 
 def _handler(session: Session, token: str) -> type[http.server.BaseHTTPRequestHandler]:
-    class Handler(http.server.BaseHTTPRequestHandler):
+    class AnnotationHandler(http.server.BaseHTTPRequestHandler):
         protocol_version = "HTTP/1.1"
         timeout = 60  # seconds that a connection may say nothing
 
@@ -138,4 +138,4 @@ def _handler(session: Session, token: str) -> type[http.server.BaseHTTPRequestHa
         def log_message(self, format: str, *args: object) -> None:
             """Says nothing: the address holds the token."""
 
-    return Handler
+    return AnnotationHandler

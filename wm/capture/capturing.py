@@ -6,7 +6,7 @@ from typing import Protocol
 
 from wm.artifacts.atomic import write_atomically
 from wm.capture import nerfstudio, npz, tum
-from wm.capture.frames import Frame, FrameMaker
+from wm.capture.frames import CapturedFrame, FrameMaker
 from wm.capture.labels import label_table
 from wm.capture.request import CaptureRequest
 from wm.capture.trajectories import stations
@@ -17,7 +17,7 @@ from wm.stages.progress import progress
 class CaptureWriter(Protocol):
     """Writes frames in one format."""
 
-    def add(self, frame: Frame) -> None: ...
+    def add(self, frame: CapturedFrame) -> None: ...
 
     def finish(self) -> list[Path]: ...
 

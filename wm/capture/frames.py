@@ -20,7 +20,7 @@ OPAQUE = 0.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Frame:
+class CapturedFrame:
     """The images of one station.
 
     Attributes:
@@ -48,7 +48,7 @@ class FrameMaker:
         renders = "splats" in (request.rgb, request.depth)
         self._renderer = SceneRenderer(run.gaussians_by_room, run.raster) if renders else None
 
-    def frame(self, station: Station) -> Frame:
+    def frame(self, station: Station) -> CapturedFrame:
         """What the station sees. Raises: UnfinishedRunError: the run has no image of the view."""
         buffer = cast(self._run.rays, station.camera)
         depth, rgb, mask = buffer.depth, None, buffer.hit
@@ -61,7 +61,7 @@ class FrameMaker:
         if rgb is None or self._request.rgb == "images":
             rgb, mask = self._painted(station)
         instance = np.where(buffer.hit, self._table.face_instance[buffer.face], 0).astype(np.uint16)
-        return Frame(
+        return CapturedFrame(
             station=station,
             rgb=rgb,
             mask=mask,

@@ -22,7 +22,7 @@ _KINDS = {
 
 
 @dataclasses.dataclass(frozen=True)
-class Instance:
+class LabelledInstance:
     """A row of the table."""
 
     id: int
@@ -36,7 +36,7 @@ class Instance:
 class LabelTable:
     """The instances and classes of a run."""
 
-    instances: tuple[Instance, ...]
+    instances: tuple[LabelledInstance, ...]
     classes: dict[str, int]
     face_instance: np.ndarray  # [f] uint16 of each face of the scaffold
     instance_class: np.ndarray  # [instances + 1] uint16, 0 for nothing
@@ -58,7 +58,7 @@ def label_table(run: FinishedRun) -> LabelTable:
     named = [(_KINDS[SurfaceKind(kind)], None, None if room == OUTSIDE else run.rooms[room]) for room, kind in structure]
     named += [(thing.label, thing.id, run.rooms[thing.room]) for thing in run.objects]
     classes = {label: number for number, label in enumerate(sorted({label for label, _, _ in named}), 1)}
-    instances = tuple(Instance(number, classes[row[0]], *row) for number, row in enumerate(named, 1))
+    instances = tuple(LabelledInstance(number, classes[row[0]], *row) for number, row in enumerate(named, 1))
     of_structure = {key: number for number, key in enumerate(structure, 1)}
     face_instance = np.array(
         [

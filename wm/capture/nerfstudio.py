@@ -13,7 +13,7 @@ import numpy as np
 
 from wm import codecs
 from wm.artifacts.atomic import write_atomically
-from wm.capture.frames import Frame
+from wm.capture.frames import CapturedFrame
 from wm.capture.png import encode_16_bits, encode_normals
 from wm.geometry import unproject_depth
 from wm.splat import save_point_cloud
@@ -35,7 +35,7 @@ class NerfstudioWriter:
         self._points: list[np.ndarray] = []
         self._colors: list[np.ndarray] = []
 
-    def add(self, frame: Frame) -> None:
+    def add(self, frame: CapturedFrame) -> None:
         """Writes the images of a frame."""
         number = len(self._frames)
         files = {
@@ -66,7 +66,7 @@ class NerfstudioWriter:
         write_atomically(transforms, json.dumps(told, indent=1) + "\n")
         return [transforms, cloud]
 
-    def _collect(self, frame: Frame) -> None:
+    def _collect(self, frame: CapturedFrame) -> None:
         """Some points of a frame, evenly over the pixels that have depth and count in the mask."""
         good = np.flatnonzero((frame.depth > 0) & frame.mask)
         some = good[:: max(1, -(-len(good) // self._share))]
@@ -75,7 +75,7 @@ class NerfstudioWriter:
         self._colors.append(frame.rgb.reshape(-1, 3)[some])
 
 
-def _pose(frame: Frame, number: int) -> dict[str, Any]:
+def _pose(frame: CapturedFrame, number: int) -> dict[str, Any]:
     """The pose and the intrinsics as the run's own cameras.json has them; the frame's files are ours."""
     name = frame.station.name or f"{number:05d}"
     told = codecs.camera_frame(View(camera=frame.station.camera, room=0, kind="capture", name=name), frame.station.room or "")

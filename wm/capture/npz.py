@@ -13,7 +13,7 @@ import numpy as np
 
 from wm import codecs
 from wm.artifacts.atomic import write_atomically
-from wm.capture.frames import Frame
+from wm.capture.frames import CapturedFrame
 
 NAME = "npz"
 
@@ -25,7 +25,7 @@ class NpzWriter:
         self._folder = folder / NAME
         self._number = 0
 
-    def add(self, frame: Frame) -> None:
+    def add(self, frame: CapturedFrame) -> None:
         """Writes the file of a frame."""
         camera = frame.station.camera
         K = np.eye(3)

@@ -13,7 +13,7 @@ import numpy as np
 
 from wm import codecs
 from wm.artifacts.atomic import write_atomically
-from wm.capture.frames import Frame
+from wm.capture.frames import CapturedFrame
 from wm.capture.png import depth_steps, encode_16_bits
 from wm.geometry import camera_center, camera_quat
 
@@ -31,7 +31,7 @@ class TumWriter:
         self._poses: list[str] = []
         self._cameras: list[str] = []
 
-    def add(self, frame: Frame) -> None:
+    def add(self, frame: CapturedFrame) -> None:
         """Writes the two images of a frame."""
         time = f"{frame.station.time:.6f}"
         steps = depth_steps(frame.depth, STEPS)

@@ -59,13 +59,19 @@ def sections_of(chosen: Mapping[str, str], choices: Choices) -> Iterator[Section
       BackendError: a chosen backend cannot be imported, where its source does not say its settings.
     """
     run = {field.name: field for field in dataclasses.fields(RunConfig)}
-    plain = {name: field for name, field in run.items() if field.default is not dataclasses.MISSING}
-    yield Section("", "The run as a whole", plain, {name: field.default for name, field in plain.items()})
+    plain = {name: field for name, field in run.items() if not _is_group(field)}
+    defaults = dataclasses.asdict(RunConfig())
+    yield Section("", "The run as a whole", plain, {name: defaults[name] for name in plain})
     for name, field in run.items():
         if name not in plain and isinstance(field.default_factory, type):
             backend = issubclass(field.default_factory, BackendSettings)
             file = choices[name][chosen[name]] if backend else None
             yield _of_backend(name, chosen[name], file) if file else _of_record(name, field.default_factory)
+
+
+def _is_group(field: dataclasses.Field[Any]) -> bool:
+    """Whether a field holds keys of its own; a list of names does not."""
+    return field.default is dataclasses.MISSING and field.default_factory is not list
 
 
 def _of_record(name: str, record: type) -> Section:

@@ -95,7 +95,10 @@ def _planned(composed: Any, *folder_keys: str) -> PlannedRun:
             del task["hydra"]
         config = freeze(task)
         if config.plan.file is not None:
-            importlib.import_module("wm.geometry").load_plan(Path(config.plan.file))
+            reading = importlib.import_module("wm.geometry.plan.loading").read_plan_file
+            reading(Path(config.plan.file), repair=config.plan.repair, unreachable=config.plan.unreachable)
+        if config.export:
+            importlib.import_module("wm.export.targets").check_targets(config.export)
         folder = Path.cwd().joinpath(*(str(OmegaConf.select(composed, key)) for key in folder_keys))
     missing = tuple(level for level in (folder, *folder.parents) if not level.exists())
     return PlannedRun(config=config, folder=folder, missing=missing)

@@ -23,9 +23,11 @@ from wm.geometry.cameras.walk import walkthrough as walkthrough
 from wm.geometry.exchange.mesh_error import MeshError as MeshError
 from wm.geometry.exchange.object_file import load_object as load_object
 from wm.geometry.exchange.trimeshes import object_to_trimesh as object_to_trimesh
-from wm.geometry.mesh.glb import GlbNode as GlbNode
-from wm.geometry.mesh.glb import object_nodes as object_nodes
 from wm.geometry.mesh.glb import save_glb as save_glb
+from wm.geometry.mesh.glb_lights import house_lights as house_lights
+from wm.geometry.mesh.glb_nodes import GlbLight as GlbLight
+from wm.geometry.mesh.glb_nodes import GlbNode as GlbNode
+from wm.geometry.mesh.glb_nodes import object_nodes as object_nodes
 from wm.geometry.mesh.scene_mesh import assemble_scene as assemble_scene
 from wm.geometry.mesh.scene_mesh import check_mesh as check_mesh
 from wm.geometry.mesh.scene_mesh import face_normals as face_normals

@@ -12,6 +12,7 @@ from jaxtyping import Float
 from markupsafe import Markup
 
 from wm.geometry import FloorPlan, interior_polygon, portals
+from wm.geometry.plan.walls import room_polygon
 from wm.report.labels import LETTER, LINE, Box, Label, place_label
 from wm.report.templating import fill
 from wm.types import SceneObject, View
@@ -86,12 +87,17 @@ def _room(sheet: _Sheet, plan: FloorPlan, objects: Sequence[SceneObject], index:
     return {
         "name": room.name,
         "area": area,
-        "outline": sheet.outline(room.polygon),
-        "interior": sheet.outline(np.asarray(interior.exterior.coords)[:-1]),
+        "outline": _rings(sheet, room_polygon(room)),
+        "interior": _rings(sheet, interior),
         "middle": (f"{x:.1f}", f"{y:.1f}"),
         "bounds": Box(west, north, east, south),
         "box": Box(x - width / 2, y - 1.2 * ROOM_TEXT, x + width / 2, y + 1.2 * ROOM_TEXT),
     }
+
+
+def _rings(sheet: _Sheet, polygon: shapely.Polygon) -> str:
+    """A path around a polygon and its holes, to be filled by the even-odd rule."""
+    return " ".join(sheet.outline(np.asarray(ring.coords)[:-1]) for ring in (polygon.exterior, *polygon.interiors))
 
 
 def _clear_spot(

@@ -12,6 +12,7 @@
     warm_up         warming_up: what the fit will run is compiled while views are painted
     executors       room_executor: the executor that fits rooms, by its name in the configuration
     evaluation      evaluate: the metrics, measured on held-out views
+    scoring         scores_of: what CLIP makes of the pictures of held-out views
     reporting       report: metrics.json, the fly-through and report.html
     ordered         in_order: a parallel map over threads that yields its results in order
     hearing         hear: what the backends make of the theme's words, and `theme.json`

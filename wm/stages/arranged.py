@@ -17,6 +17,7 @@ from jaxtyping import Float
 from wm.codecs import object_summary
 from wm.errors import InputError
 from wm.geometry import FloorPlan
+from wm.geometry.plan.walls import room_polygon
 from wm.types import SceneObject
 
 SUPPORTS = ("floor", "flat", "wall", "ceiling", "object")
@@ -113,7 +114,7 @@ def _room(thing: SceneObject, row: dict, made: dict, plan: FloorPlan, matrix: Fl
             raise ArrangementError(f"{where}: room is {_show(row['room'])}; choices: {', '.join(rooms)}")
         return rooms.index(row["room"])
     place = shapely.Point(matrix[:2, 3])
-    holding = [k for k, room in enumerate(plan.rooms) if shapely.Polygon(room.polygon).covers(place)]
+    holding = [k for k, room in enumerate(plan.rooms) if room_polygon(room).covers(place)]
     return thing.room if thing.room in holding or not holding else holding[0]
 
 

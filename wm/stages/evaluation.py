@@ -23,6 +23,7 @@ from wm.stages.painting import Painted
 from wm.stages.reconstruction import ReconstructedScene
 from wm.stages.run_context import RunContext
 from wm.stages.scene import Scene
+from wm.stages.scoring import scores_of
 from wm.types import OUTSIDE, GBuffer, Render, SurfaceKind, View
 
 _ssim = jax.jit(ssim)
@@ -48,17 +49,22 @@ class Seen:
 def evaluate(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene, heldout: HeldOut) -> dict:
     """The metrics of the run by key, without its time and memory. A metric that no view could measure may be missing."""
     with run.stage("evaluate"):
-        config = run.config
-        key = run.key("evaluate", result.key, config.evaluate, config.navigation)
-        pictures = [_entry(view) for view in scene.heldout]
-        if all(run.folder.has(name, key) for name in ("evaluate", *pictures)):
-            known = read_metrics(run.folder.path / EVALUATION)
-            if known is not None:
-                return known
-        metrics = _scene_metrics(run, scene, painted, result) | _heldout_metrics(run, scene, result, heldout, key)
-        clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
-        run.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
-        return clean
+        key = run.key("evaluate", result.key, run.config.evaluate, run.config.navigation)
+        metrics = _found(run, scene, key) or _measured(run, scene, painted, result, heldout, key)
+        return metrics | scores_of(run, [_picture(view) for view in scene.heldout], key)
+
+
+def _found(run: RunContext, scene: Scene, key: str) -> dict | None:
+    """The metrics that the folder holds, with all pictures."""
+    entries = ("evaluate", *(_entry(view) for view in scene.heldout))
+    return read_metrics(run.folder.path / EVALUATION) if all(run.folder.has(name, key) for name in entries) else None
+
+
+def _measured(run: RunContext, scene: Scene, painted: Painted, result: ReconstructedScene, heldout: HeldOut, key: str) -> dict:
+    metrics = _scene_metrics(run, scene, painted, result) | _heldout_metrics(run, scene, result, heldout, key)
+    clean = {name: value if value is None or np.isfinite(value) else None for name, value in metrics.items()}
+    run.folder.save("evaluate", key, {EVALUATION: json_text(clean)})
+    return clean
 
 
 def look(scene: Scene, renderer: SceneRenderer, view: View) -> Seen:

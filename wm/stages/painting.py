@@ -10,7 +10,9 @@ import numpy as np
 from wm import codecs, console
 from wm.artifacts.digests import json_text
 from wm.geometry import assemble_scene, atlas_nodes, build_ray_scene, object_boxes
-from wm.geometry.mesh.glb import object_nodes, save_glb
+from wm.geometry.mesh.glb import save_glb
+from wm.geometry.mesh.glb_lights import house_lights
+from wm.geometry.mesh.glb_nodes import object_nodes
 from wm.geometry.plan.site import room_site
 from wm.geometry.texture.atlas_export import coarse_rooms
 from wm.schema import RunConfig
@@ -27,6 +29,8 @@ SCAFFOLD = "scaffold.glb"
 SUMMARY = "stages/paint.json"
 _ORDER = "anchors first, then each room by itself"
 """Part of the key: views of folders of older versions were painted in another order."""
+_SHOWN = "bootstrap"
+"""Kind of the views that are cameras of `scaffold.glb`: two a room, which show most of it."""
 _NOTED = ("model", "model_version", "seed")
 """What the manifest says of how a view was made; `views/*.json` says all of it."""
 
@@ -160,15 +164,16 @@ def _prompts(scene: Scene, config: RunConfig) -> Callable[[View, bool], ViewProm
 
 
 def _export(run: RunContext, scene: Scene, result: PaintSummary, key: str) -> None:
-    """Writes `scaffold.glb`: the structure with its painted texture, and every object as a node of its own."""
-    nodes = [*atlas_nodes(result.atlas, scene.context.structure), *object_nodes(scene.objects, scene.rooms)]
+    """Writes `scaffold.glb`: rooms with their painted texture, every object as a node of its own, lights, and some cameras."""
+    nodes = [*atlas_nodes(result.atlas, scene.context.structure, scene.rooms), *object_nodes(scene.objects, scene.rooms)]
+    lights, views = house_lights(scene.plan, scene.objects), [view for view in scene.views if view.kind == _SHOWN]
     for room in coarse_rooms(result.atlas):
         console.say(f"{SCAFFOLD}: surfaces of {scene.rooms[room]} that no image holds at {result.atlas.texel_size} m are coarser")
     run.folder.save(
         "paint",
         key,
         {
-            SCAFFOLD: lambda path: save_glb(path, nodes),
+            SCAFFOLD: lambda path: save_glb(path, nodes, lights=lights, views=views),
             SUMMARY: json_text({"yield": result.yield_share, "atm": result.atm, "order": list(result.order)}),
         },
     )

@@ -12,12 +12,11 @@ from wm.geometry import (
     RayScene,
     assemble_scene,
     build_ray_scene,
-    parse_plan,
     place_cameras,
     place_heldout,
     plan_to_json,
 )
-from wm.geometry.plan.loading import read_plan_file
+from wm.geometry.plan.loading import read_plan_file, stored_plan
 from wm.schema import ObjectsSettings, RunConfig
 from wm.stages import edits
 from wm.stages.arranged import ArrangementError, arranged, is_json
@@ -84,18 +83,24 @@ def build_scene(run: RunContext) -> Scene:
 def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     config = run.config
     file = config.plan.file
-    source = [file_digest(_user_file(file))] if file else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
+    mends = {"repair": config.plan.repair, "unreachable": config.plan.unreachable}
+    mended = ["repair"] * config.plan.repair
+    source = (
+        [file_digest(_user_file(file)), *mended]
+        if file
+        else [config.scene.theme, config.scene.rooms, *backend_key(config.language)]
+    )
     seed = seed_of(config, "plan")
     key = run.key("plan", *source, config.plan.max_iterations, seed)
     edited = edits.edited_key(run, "plan", PLAN, key)
     if edited is not None and is_json((run.folder.path / PLAN).read_bytes()):
-        plan = _told(run.folder.path / PLAN)
+        plan, _ = _told(run.folder.path / PLAN, repair=False, unreachable=config.plan.unreachable)  # read again as it stands
         edits.accept(run, "plan", edited, [PLAN], "structure, furniture, cameras and all that follows are made again")
         return plan, edited
     if not run.folder.has("plan", key):
         if file:
-            plan = _told(pathlib.Path(file))
-            layout = {"source": "file", "iterations": 0, "seconds": 0.0}
+            plan, notes = _told(pathlib.Path(file), **mends)
+            layout = {"source": "file", "iterations": 0, "seconds": 0.0, "notes": list(notes)}
         else:
             backend = make_backend("language", config.language, services=run.services)
             proposal = propose_plan(
@@ -108,15 +113,15 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
         # The time that the layout took is not part of the plan's entry, so that equal runs have equal manifests.
         run.folder.write(LAYOUT, json_text(layout))
         run.folder.save("plan", key, {PLAN: text})
-    return parse_plan((run.folder.path / PLAN).read_text(encoding="utf-8"), PLAN), key
+    return stored_plan(run.folder.path / PLAN), key
 
 
-def _told(file: pathlib.Path) -> FloorPlan:
-    """A user's plan; what is not read or was changed in it is said."""
-    reading = read_plan_file(file)
+def _told(file: pathlib.Path, *, repair: bool, unreachable: str) -> tuple[FloorPlan, tuple[str, ...]]:
+    """A user's plan, and what is not read of it, may not be meant or was changed in it, which is said too."""
+    reading = read_plan_file(file, repair=repair, unreachable=unreachable)
     for note in reading.notes:
         console.say(f"{file}: {note}")
-    return reading.plan
+    return reading.plan, reading.notes
 
 
 def _user_file(file: str) -> pathlib.Path:

@@ -98,7 +98,7 @@ def _text(result: LanguageResult) -> str:
 
 def _validated(text: str, rooms: list[str]) -> tuple[FloorPlan | None, list[str]]:
     try:
-        plan = read_plan(plan_document(text), "proposal").plan
+        plan = read_plan(plan_document(text), "proposal", unreachable="refuse").plan
     except PlanError as error:
         return None, [str(violation) for violation in error.violations]
     violations = _programme_violations(plan, rooms)

@@ -39,7 +39,7 @@ PUBLISHED = """{
 
 def rules_of(plan: FloorPlan) -> list[tuple[str | None, str]]:
     with pytest.raises(PlanError) as caught:
-        checked(plan)
+        parse_plan(plan_to_json(plan), unreachable="refuse")
     return [(violation.room, violation.rule) for violation in caught.value.violations]
 
 
@@ -131,11 +131,10 @@ B = rectangle("b", 4, 0, 8, 4)
             [("a", "opening_off_wall"), ("c", "unreachable")],
         ),
         ((A, B, rectangle("c", 3, 3, 5, 8)), [("a", "rooms_overlap"), ("b", "rooms_overlap")]),
-        ((A, B, rectangle("c", 0, 4, 0.4, 8)), [("c", "room_too_small")]),
-        ((A, B, rectangle("c", 0, 4, 0.8, 8)), [("c", "room_too_small"), ("c", "unreachable")]),
+        ((A, B, rectangle("c", 0, 4, 0.15, 8, window((0, 4), (0, 8), 1))), [("c", "room_too_small")]),
+        ((A, B, rectangle("c", 0, 4, 0.4, 8, window((0, 4), (0, 8), 1))), [("c", "room_too_small"), ("c", "unreachable")]),
         ((Room("a", "a", np.array([[0, 0], [4, 4], [4, 0], [0, 4.0]]), 2.8, ()),), [("a", "self_intersection")]),
         ((Room("a", "a", np.array([[0, 0], [4, 0], [2, 0.0]]), 2.8, ()),), [("a", "zero_area")]),
-        ((rectangle("a", 0, 0, 4, 4, opening("passage", (0, 0), (4, 0), 1)),), [("a", "door_exterior")]),
         (
             (rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)),
             [("a", "door_exterior")],
@@ -145,7 +144,10 @@ B = rectangle("b", 4, 0, 8, 4)
         ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 0.1)),), [("a", "opening_off_wall")]),
         ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 1), height=2.0),), [("a", "opening_off_wall")]),
         ((rectangle("a", 0, 0, 4, 4, window((0, 0), (4, 0), 1), window((4, 0), (0, 0), 1)),), [("a", "openings_overlap")]),
-        ((dataclasses.replace(A, openings=(*A.openings, window((4, 0), (4, 4), 0.2, 0.5))), B), [("a", "window_interior")]),
+        (
+            (rectangle("a", 0, 0, 4, 8, window((4, 0), (4, 8), 3.5, 1.0)), B, rectangle("c", 4, 4, 8, 8)),
+            [("a", "window_interior"), ("b", "unreachable"), ("c", "unreachable")],
+        ),
         ((A, dataclasses.replace(B, openings=(opening("door", (4, 0), (4, 4), 2.0),))), [("b", "openings_overlap")]),
         ((A, dataclasses.replace(B, openings=(opening("passage", (4, 0), (4, 4), 1.5),))), [("b", "openings_overlap")]),
         ((A, dataclasses.replace(B, ceiling_height=2.0)), [("a", "opening_off_wall")]),
@@ -263,7 +265,7 @@ def test_metres_that_are_called_feet_are_one_violation():
     assert (violation.rule, violation.room) == ("units", None)
     assert "metadata.wall_thickness is 0.15 (0.04572 m)" in violation.message and "say 'meters'" in violation.message
     with pytest.raises(PlanError) as caught:  # in metres the door would be out of range as well
-        parse_plan(PUBLISHED.replace('"meters"', '"feet"').replace('"width": 0.9', '"width": 0.2'))
+        parse_plan(PUBLISHED.replace('"meters"', '"feet"').replace('"width": 0.9', '"width": 0.05'))
     assert {violation.rule for violation in caught.value.violations} == {"number"}
 
 
@@ -324,17 +326,20 @@ def test_an_entrance_is_closed_and_no_way():
     ("rooms", "says"),
     [
         ((A, rectangle("b", 4, 0, 8, 4), rectangle("up", 0, 0, 4, 4)), "a plan has one storey"),
-        ((A, B, rectangle("wc", 5, 1, 7, 3)), "cut wc out of the floor_polygon of b"),
+        ((A, B, rectangle("wc", 5, 1, 7, 3)), "cut wc out of b, as one of its holes (plan.repair=true does)"),
         ((A, rectangle("b", 3.8, 0, 8, 4)), "move the wall between them"),
         ((A, B, rectangle("c", 20, 0, 24, 4)), "put one on a wall that it shares"),
         ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 0.1)), B), "from 0.15 to 3.85 m of its wall_segment"),
         ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 4), (4, 0), 3.0)), B), "from 0.15 to 3.85 m of its wall_segment"),
-        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1, width=0.4)), B), "so that a person gets through"),
-        ((rectangle("a", 0, 0, 4, 4, opening("passage", (0, 0), (4, 0), 1)),), "make it a door, which is closed"),
-        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)), "close the gap"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1, width=0.4)), B), "no doors or passages lead to it"),
+        ((rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 0.1)), B), "plan.repair=true moves or narrows it"),
+        (
+            (rectangle("a", 0, 0, 4, 4, opening("door", (4, 0), (4, 4), 1)), rectangle("b", 4.1, 0, 8, 4)),
+            "closes the gap of 0.1 m",
+        ),
     ],
 )
 def test_a_refusal_says_what_would_be_right(rooms, says):
     with pytest.raises(PlanError) as caught:
-        checked(FloorPlan(rooms))
+        parse_plan(plan_to_json(FloorPlan(rooms)), unreachable="refuse")
     assert says in str(caught.value)

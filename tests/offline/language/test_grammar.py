@@ -9,6 +9,7 @@ import shapely
 from hypothesis import strategies as st
 
 from wm.geometry import PlanError, parse_plan
+from wm.geometry.plan.connected import connected_parts, entrances
 from wm.offline.language.building import building_of
 from wm.offline.language.grammar import Settings as LanguageSettings
 from wm.offline.language.grammar import make
@@ -51,6 +52,17 @@ def test_rooms_are_wide_enough_and_those_one_lives_in_have_windows(theme, rooms,
         assert shape.area - opened.area < 0.05, f"{room.name} is thinner than {narrowest} m somewhere"
         if kind.zone in ("public", "private"):
             assert any(opening.kind == "window" for opening in room.openings), f"{room.name} has no window"
+
+
+@hypothesis.given(st.sampled_from(THEMES), programmes, seeds)
+@hypothesis.settings(max_examples=6, deadline=None)
+def test_a_house_has_one_entrance_in_a_hall_where_one_has_an_outer_wall(theme, rooms, seed):
+    plan = propose_plan(GRAMMAR, theme, rooms, seed=seed, max_iterations=8).plan
+    (entrance,) = entrances(plan)
+    assert connected_parts(plan) == (tuple(range(len(plan.rooms))),)
+    halls = [k for k, room in enumerate(plan.rooms) if room_kind_of(room.name).zone == "circulation"]
+    lit = {k for k in halls if any(opening.kind == "window" for opening in plan.rooms[k].openings)}
+    assert entrance.wall.room in halls or not lit
 
 
 def test_most_rooms_have_the_area_of_their_kind():

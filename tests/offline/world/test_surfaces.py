@@ -79,6 +79,14 @@ def test_doors_of_ornate_styles_stand_under_a_cap():
     assert capped.height[row, column] > bare.height[row, column] + 0.02
 
 
+def test_a_closed_door_has_sunken_panels_within_a_frame_and_a_handle():
+    texel = 0.01
+    axes = np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.array([0, -1.0, 0])
+    leaf = dress(Chart(SurfaceKind.REVEAL, np.zeros(3), *axes, (210, 90), texel), (), interior("coastal"))
+    assert leaf.height[40, 45] < leaf.height[40, 4] - 0.005 and leaf.height[150, 45] < leaf.height[150, 4] - 0.005
+    assert leaf.albedo[:, 105, 15].mean() < 0.5 * leaf.albedo[:, 98, 4].mean()
+
+
 def test_jambs_carry_a_stop_and_thresholds_none():
     x, y, z = np.eye(3)
     upright = Chart(SurfaceKind.REVEAL, np.zeros(3), y, z, x, (200, 30), 0.01)

@@ -38,7 +38,7 @@ def visible_rooms(plan: FloorPlan, mesh: Mesh, views: View | Sequence[View]) -> 
     floors = [interior_polygon(plan, index) for index in range(count)]
     doors: list[list[Portal]] = [[] for _ in range(count)]
     for portal in portals(plan):
-        if portal.is_way:
+        if portal.is_open:
             for room in portal.rooms:
                 doors[room].append(portal)
     drawn = np.isin(np.arange(count), mesh.face_room)

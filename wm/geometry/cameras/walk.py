@@ -12,6 +12,7 @@ Smoothing in time moves the walker along the route and never off it.
 
 import dataclasses
 import itertools
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,8 @@ from wm.errors import InputError
 from wm.geometry.cameras.gaze import Panorama, gaze, looks, panorama, turns
 from wm.geometry.placement.clearances import BODY
 from wm.geometry.placement.navigation import body_floor, cells_inside, object_corners, walkable_floor
-from wm.geometry.plan.footprint import interior_polygon
+from wm.geometry.plan.connected import connected_parts
+from wm.geometry.plan.footprint import ENTERED, interior_polygon
 from wm.geometry.plan.openings import portals
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.rays.pinhole import make_camera
@@ -106,6 +108,9 @@ def walkthrough(
 ) -> list[Camera]:
     """One camera per frame, from the first room through the doors into every other, looking at what each has to show.
 
+    Separate parts of the plan (`connected_parts`) are walked one after the other, that of the first room first, with a cut
+    between. Rooms too small to be entered are left out.
+
     Args:
         plan, mesh: as for `place_cameras`.
         fps: frames a second.
@@ -115,15 +120,29 @@ def walkthrough(
     """
     if not (fps > 0 and speed > 0):
         raise ValueError(f"a walk needs frames and a speed above 0, not fps {fps}, speed {speed}")
-    doors = [portal.head for portal in portals(plan) if portal.is_way]
-    height = min(settings.eye_height, *(room.ceiling_height - _AIR for room in plan.rooms), *(h - _AIR for h in doors))
     scene = ray_scene(mesh)
-    floor = _walkable(plan, scene.mesh, height)
+    parts = [[room for room in part if _is_entered(plan, room)] for part in connected_parts(plan)]
+    parts = sorted(filter(None, parts), key=min) or [[0]]
+    return [camera for part in parts for camera in _walk(plan, scene, part, settings, fps=fps, speed=speed)]
+
+
+def _is_entered(plan: FloorPlan, room: int) -> bool:
+    return not interior_polygon(plan, room).buffer(-ENTERED).is_empty
+
+
+def _walk(
+    plan: FloorPlan, scene: RayScene, rooms: Sequence[int], settings: CameraSettings, *, fps: int, speed: float
+) -> list[Camera]:
+    """The walk through some rooms that doors join."""
+    doors = [portal.head for portal in portals(plan) if portal.is_way and set(rooms) >= set(portal.rooms)]
+    ceilings = [plan.rooms[room].ceiling_height for room in rooms]
+    height = min(settings.eye_height, *(h - _AIR for h in (*ceilings, *doors)))
+    floor = _walkable(plan, scene.mesh, height, rooms)
     fov = 2 * np.arctan(np.tan(np.radians(settings.fov) / 2) * settings.width / settings.height)
     eyes = _Eyes(scene=scene, height=height, fov=float(fov))
-    stops = np.array([_stop(floor, eyes, index) for index in range(len(plan.rooms))])
+    stops = np.array([_stop(floor, eyes, room) for room in rooms])
     order, legs = _route(floor, stops)
-    progress = _visit(plan, eyes, order, legs, speed)
+    progress = _visit(plan, eyes, [rooms[k] for k in order], legs, speed)
     route = np.concatenate(legs)
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(route, axis=0), axis=1))])
     times = np.arange(0.0, progress.times[-1] + 0.5 / fps, 1 / fps)
@@ -145,18 +164,18 @@ def _cameras(
     return [make_camera(eye, target, **size) for eye, target in zip(eyes, targets)]
 
 
-def _walkable(plan: FloorPlan, mesh: Mesh, height: float) -> _Floor:
-    """The floor of the widest walker who gets into all rooms: around all furniture, else slimmer, else over low furniture too."""
+def _walkable(plan: FloorPlan, mesh: Mesh, height: float, rooms: Sequence[int]) -> _Floor:
+    """The floor of the widest walker who gets into these rooms: around furniture, else slimmer, else over low furniture too."""
     things = object_corners(mesh)
     tall = [corners for corners in things if corners[..., 2].max() > height - _AIR]
     unreached = []
     for radius, obstacles in ((BODY, things), (0.6 * BODY, things), (BODY, tall), (0.4 * BODY, tall)):
         floor = _grid(plan, body_floor(plan, obstacles, height=height + _AIR, radius=radius), radius)
-        roomy = [_open_cell(floor, index) for index in range(len(plan.rooms))]
+        roomy = [_open_cell(floor, room) for room in rooms]
         if None in roomy:
             continue
         reached = scipy.sparse.csgraph.dijkstra(floor.graph, indices=roomy[0])[roomy]
-        unreached = [room.id for room, distance in zip(plan.rooms, reached) if not np.isfinite(distance)]
+        unreached = [plan.rooms[room].id for room, distance in zip(rooms, reached) if not np.isfinite(distance)]
         if not unreached:
             return floor
     names = ", ".join(unreached) or "any room"

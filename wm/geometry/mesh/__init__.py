@@ -6,4 +6,6 @@
     structure        build_structure: the watertight building
     object_colors    base colours at points of objects
     glb              save_glb
+    glb_nodes        GlbNode, GlbLight, object_nodes
+    glb_lights       house_lights: point lights of things that glow, and of rooms where nothing does
 """

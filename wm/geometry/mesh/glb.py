@@ -3,15 +3,15 @@
 glTF is y-up and we are z-up: (x, y, z) becomes (x, z, -y). Colours are sRGB here and linear in glTF's factors; textures are
 sRGB in both, embedded as PNG, sampled with CLAMP_TO_EDGE so that charts do not bleed around the atlas. Normals are left out:
 a reader then shades flat, as the specification asks. The rooms' textures carry their light (they are painted views), so their
-nodes are unlit (KHR_materials_unlit); those of objects are colours of surfaces, and lit.
+nodes are unlit (KHR_materials_unlit); those of objects are colours of surfaces, and lit. A node with a frame of its own has its
+vertices in it, so that other programs move and turn it about its foot.
 
 trimesh reads meshes for us (wm.geometry.exchange) and does not write these files: its exporter (5.2) has no unlit material, no
 sampler and no strength of emission (it writes a factor of 3 where the specification allows 1), puts one primitive in a mesh, and
 leaves z up. Measured by experiments/library_peers.
-Source: Khronos, glTF 2.0 specification, sections 3.6-3.9 and 4.
+Source: Khronos, glTF 2.0 specification, sections 3.6-3.10 and 4; KHR_lights_punctual.
 """
 
-import dataclasses
 import io
 import json
 import os
@@ -22,83 +22,46 @@ from typing import Any
 
 import numpy as np
 from PIL import Image
+from scipy.spatial.transform import Rotation
 
-from wm.types import SceneObject
+from wm.geometry.mesh.glb_nodes import GlbLight, GlbNode
+from wm.types import View
 
 _FLOAT, _UINT32 = 5126, 5125  # componentType
 _VERTICES, _INDICES = 34962, 34963  # bufferView.target
 _LINEAR, _LINEAR_MIPMAP, _CLAMP = 9729, 9987, 33071  # sampler
+_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # our axes to glTF's
+_LOOKING_BACK = np.diag([1.0, -1.0, -1.0, 1.0])  # glTF's cameras look along -z and have y up
+_NEAR = 0.05  # metres
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class GlbNode:
-    """Triangles of one material. Nodes of one name become one glTF node with a primitive each."""
-
-    name: str
-    vertices: np.ndarray  # [v, 3] metres, z up
-    faces: np.ndarray  # [f, 3] integer
-    uv: np.ndarray | None = None  # [v, 2]; (0, 0) is the corner of the texture's first pixel, v runs down its rows
-    texture: np.ndarray | None = None  # [h, w, 3] uint8 sRGB
-    base_color: np.ndarray | None = None  # [3] sRGB in [0, 1]; white without
-    emission: float = 0.0  # how strongly it glows in its own colour
-    unlit: bool = False  # its colours carry their light
-    double_sided: bool = False
-    extras: dict[str, Any] | None = None  # of the glTF node: JSON-like values that viewers hand on
-
-
-def object_nodes(objects: Sequence[SceneObject], rooms: Sequence[str] = ()) -> list[GlbNode]:
-    """The objects as nodes, each with a primitive for each of its materials.
+def save_glb(
+    path: str | os.PathLike[str], nodes: Iterable[GlbNode], *, lights: Sequence[GlbLight] = (), views: Sequence[View] = ()
+) -> None:
+    """Writes nodes to a GLB file; nodes without faces are left out.
 
     Args:
-      objects: a node is named by its object's id, or by label and a number where that is empty. Its extras hold `id`, `label`,
-        `support`, `face_object` (the object's index, as in `Mesh.face_object`) and `room`.
-      rooms: the ids of the plan's rooms; without them `room` is the room's index.
-    """
-    nodes: list[GlbNode] = []
-    seen: dict[str, int] = {}
-    for index, thing in enumerate(objects):
-        seen[thing.label] = seen.get(thing.label, 0) + 1
-        name = thing.id or f"{thing.label} {seen[thing.label]}"
-        room = rooms[thing.room] if rooms else thing.room
-        extras = {"id": name, "label": thing.label, "room": room, "support": thing.support, "face_object": index}
-        nodes += [_slot_node(thing, slot, name, extras) for slot in range(len(thing.slots))]
-    return nodes
-
-
-def _slot_node(thing: SceneObject, slot: int, name: str, extras: dict[str, Any]) -> GlbNode:
-    """The faces of one material, in their texture where they have one and else in one colour."""
-    mine = thing.face_slot == slot
-    texture = thing.texture
-    uv = base_color = image = None
-    if texture is None or not texture.slots[slot]:
-        vertex, index = np.unique(thing.faces[mine], return_inverse=True)
-        base_color = thing.slot_colors[slot]
-    else:
-        corners = np.concatenate([thing.faces[mine].reshape(-1, 1), texture.corner_uv[mine].reshape(-1, 2)], axis=1)
-        corners, index = np.unique(corners, axis=0, return_inverse=True)
-        vertex, uv, image = corners[:, 0].astype(np.int64), corners[:, 1:], texture.image
-    return GlbNode(
-        name=name, vertices=thing.vertices[vertex], faces=index.reshape(-1, 3), uv=uv, texture=image, base_color=base_color,
-        emission=float(thing.emission[slot]), double_sided=True, extras=extras,
-    )  # fmt: skip
-
-
-def save_glb(path: str | os.PathLike[str], nodes: Iterable[GlbNode]) -> None:
-    """Writes nodes to a GLB file; nodes without faces are left out.
+      nodes: those that are `apart` are the file's second scene, "exterior".
+      lights: point lights; their parents are among the nodes.
+      views: become cameras of their names.
 
     Raises:
       ValueError: a node's vertices or faces have another shape or type than [v, 3] and integer [f, 3], its coordinates are not
         finite, its indices out of range, or its uv and texture do not belong together. The message names node and field.
     """
-    Path(path).write_bytes(_encode(nodes))
+    Path(path).write_bytes(_encode(nodes, lights, views))
 
 
-def _encode(nodes: Iterable[GlbNode]) -> bytes:
+def _encode(nodes: Iterable[GlbNode], lights: Sequence[GlbLight], views: Sequence[View]) -> bytes:
     document = _Document()
     for node in nodes:
         _check(node)
         if len(node.faces):
             document.add(node)
+    for light in lights:
+        document.add_light(light)
+    for view in views:
+        document.add_camera(view)
     return document.to_bytes()
 
 
@@ -122,6 +85,15 @@ def _check(node: GlbNode) -> None:
         raise ValueError(f"{where}: base_color must be three finite numbers; it is {node.base_color}")
     if not (np.isfinite(node.emission) and node.emission >= 0):
         raise ValueError(f"{where}: emission is {node.emission}; it must be finite and not negative")
+    if node.T_world_node is not None and not _is_rigid(node.T_world_node):
+        raise ValueError(f"{where}: T_world_node must be a rotation and a translation, [4, 4]; it is {node.T_world_node}")
+
+
+def _is_rigid(T: np.ndarray) -> bool:
+    if np.shape(T) != (4, 4) or not np.isfinite(T).all():
+        return False
+    rotation = T[:3, :3]
+    return bool(np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-5) and np.linalg.det(rotation) > 0)
 
 
 class _Document:
@@ -133,16 +105,26 @@ class _Document:
         self.accessors: list[dict[str, Any]] = []
         self.materials: list[dict[str, Any]] = []
         self.images: list[dict[str, Any]] = []
-        self.meshes: dict[str, dict[str, Any]] = {}  # by node name
-        self.extras: dict[str, dict[str, Any]] = {}  # likewise, of the nodes that have some
+        self.meshes: list[dict[str, Any]] = []
+        self.nodes: list[dict[str, Any]] = []
+        self.lights: list[dict[str, Any]] = []
+        self.cameras: list[dict[str, Any]] = []
         self.extensions: set[str] = set()
+        self._named: dict[str, int] = {}  # nodes with a mesh
+        self._frames: dict[str, np.ndarray] = {}  # of those that have one of their own, in our axes
+        self._apart: set[int] = set()  # nodes of the second scene
+        self._children: set[int] = set()
+        self._known: dict[str, int] = {}  # materials by their content
         self._textures: dict[int, int] = {}  # id of an array the caller holds -> image
         self._held: list[np.ndarray] = []
 
     def add(self, node: GlbNode) -> None:
-        x, y, z = np.asarray(node.vertices, np.float64).T
-        position = np.stack([x, z, -y], axis=1).astype("<f4")
-        attributes = {"POSITION": self._accessor(position, "VEC3", _FLOAT, _VERTICES, bounds=True)}
+        frame = np.eye(4) if node.T_world_node is None else node.T_world_node
+        if node.name not in self._named:
+            self._add_node(node, frame)
+        frame = self._frames[node.name]
+        local = (np.asarray(node.vertices, np.float64) - frame[:3, 3]) @ frame[:3, :3]
+        attributes = {"POSITION": self._accessor(_y_up(local).astype("<f4"), "VEC3", _FLOAT, _VERTICES, bounds=True)}
         if node.uv is not None:
             attributes["TEXCOORD_0"] = self._accessor(np.asarray(node.uv).astype("<f4"), "VEC2", _FLOAT, _VERTICES)
         primitive = {
@@ -150,10 +132,42 @@ class _Document:
             "indices": self._accessor(np.asarray(node.faces).astype("<u4").reshape(-1), "SCALAR", _UINT32, _INDICES),
             "material": self._material(node),
         }
-        mesh = self.meshes.setdefault(node.name, {"name": node.name, "primitives": []})
-        mesh["primitives"].append(primitive)
-        if node.extras:
-            self.extras[node.name] = {"extras": node.extras}
+        self.meshes[self.nodes[self._named[node.name]]["mesh"]]["primitives"].append(primitive)
+
+    def add_light(self, light: GlbLight) -> None:
+        """A light's node: a child of its parent, in the frame of that, or one of its own."""
+        parent = self._named.get(light.parent)
+        position = np.asarray(light.position, np.float64)
+        if parent is not None:
+            frame = self._frames[light.parent]
+            position = (position - frame[:3, 3]) @ frame[:3, :3]
+        color = _linear(np.clip(np.asarray(light.color, np.float64), 0, 1)).tolist()
+        self.lights.append({"name": light.name, "type": "point", "color": color, "intensity": float(light.intensity)})
+        shining = {"KHR_lights_punctual": {"light": len(self.lights) - 1}}
+        self.nodes.append({"name": light.name, "translation": _y_up(position).tolist(), "extensions": shining})
+        self.extensions.add("KHR_lights_punctual")
+        if parent is not None:
+            self.nodes[parent].setdefault("children", []).append(len(self.nodes) - 1)
+            self._children.add(len(self.nodes) - 1)
+
+    def add_camera(self, view: View) -> None:
+        camera = view.camera
+        yfov = 2 * float(np.arctan(camera.height / 2 / float(camera.focal[1])))
+        aspect = camera.width / camera.height * float(camera.focal[1]) / float(camera.focal[0])
+        lens = {"yfov": yfov, "aspectRatio": aspect, "znear": _NEAR}
+        self.cameras.append({"name": view.name, "type": "perspective", "perspective": lens})
+        pose = _Y_UP @ np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _LOOKING_BACK
+        self.nodes.append({"name": view.name, "camera": len(self.cameras) - 1, **_placed(pose)})
+
+    def _add_node(self, node: GlbNode, frame: np.ndarray) -> None:
+        """A node with an empty mesh; the primitives of all nodes of its name go into it."""
+        self._frames[node.name], self._named[node.name] = frame, len(self.nodes)
+        placed = {} if node.T_world_node is None else _placed(_Y_UP @ frame @ _Y_UP.T)
+        extras = {"extras": node.extras} if node.extras else {}
+        self.nodes.append({"name": node.name, "mesh": len(self.meshes), **placed, **extras})
+        self.meshes.append({"name": node.name, "primitives": []})
+        if node.apart:
+            self._apart.add(len(self.nodes) - 1)
 
     def _view(self, data: bytes, target: int | None = None) -> int:
         self.binary.extend(b"\0" * (-len(self.binary) % 4))
@@ -180,7 +194,8 @@ class _Document:
     def _material(self, node: GlbNode) -> int:
         color = np.ones(3) if node.base_color is None else _linear(np.clip(np.asarray(node.base_color, np.float64), 0, 1))
         surface: dict[str, Any] = {"baseColorFactor": [*color.tolist(), 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}
-        material: dict[str, Any] = {"name": node.name, "pbrMetallicRoughness": surface, "doubleSided": node.double_sided}
+        name = node.material or node.name
+        material: dict[str, Any] = {"name": name, "pbrMetallicRoughness": surface, "doubleSided": node.double_sided}
         if node.texture is not None:
             surface["baseColorTexture"] = {"index": self._texture(node.texture)}
         if node.emission > 0:
@@ -191,8 +206,11 @@ class _Document:
                 self._extend(material, "KHR_materials_emissive_strength", {"emissiveStrength": node.emission})
         elif node.unlit:
             self._extend(material, "KHR_materials_unlit", {})
-        self.materials.append(material)
-        return len(self.materials) - 1
+        content = json.dumps(material)
+        if content not in self._known:
+            self._known[content] = len(self.materials)
+            self.materials.append(material)
+        return self._known[content]
 
     def _extend(self, material: dict[str, Any], name: str, value: dict[str, Any]) -> None:
         material.setdefault("extensions", {})[name] = value
@@ -208,23 +226,35 @@ class _Document:
             self.images.append({"bufferView": self._view(png.getvalue()), "mimeType": "image/png"})
         return self._textures[id(pixels)]
 
+    def _scenes(self) -> list[dict[str, Any]]:
+        """The house; and, where a node stands apart, its exterior."""
+        roots = [k for k in range(len(self.nodes)) if k not in self._children]
+        first, second = ([k for k in roots if (k in self._apart) == apart] for apart in (False, True))
+        if not second:
+            return [{"nodes": first}] if first else [{}]
+        return [{"name": "house", **({"nodes": first} if first else {})}, {"name": "exterior", "nodes": second}]
+
     def to_bytes(self) -> bytes:
-        meshes = list(self.meshes.values())
         document: dict[str, Any] = {
             "asset": {"version": "2.0", "generator": "wm"},
             "scene": 0,
-            "scenes": [{"nodes": list(range(len(meshes)))}] if meshes else [{}],
+            "scenes": self._scenes(),
         }
-        if meshes:
+        if self.nodes:
+            document["nodes"] = self.nodes
+        if self.meshes:
             self.binary.extend(b"\0" * (-len(self.binary) % 4))
             document |= {
-                "nodes": [{"name": name, "mesh": k, **self.extras.get(name, {})} for k, name in enumerate(self.meshes)],
-                "meshes": meshes,
+                "meshes": self.meshes,
                 "materials": self.materials,
                 "accessors": self.accessors,
                 "bufferViews": self.views,
                 "buffers": [{"byteLength": len(self.binary)}],
             }
+        if self.cameras:
+            document["cameras"] = self.cameras
+        if self.lights:
+            document["extensions"] = {"KHR_lights_punctual": {"lights": self.lights}}
         if self.images:
             document |= {
                 "images": self.images,
@@ -244,3 +274,14 @@ class _Document:
 def _linear(srgb: np.ndarray) -> np.ndarray:
     """IEC 61966-2-1: sRGB in [0, 1] to linear light."""
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def _y_up(points: np.ndarray) -> np.ndarray:
+    """Points [..., 3] in glTF's axes."""
+    return points @ _Y_UP[:3, :3].T
+
+
+def _placed(T: np.ndarray) -> dict[str, list[float]]:
+    """A rigid transform as the properties of a glTF node."""
+    rotation = Rotation.from_matrix(T[:3, :3]).as_quat(canonical=True)
+    return {"rotation": (rotation / np.linalg.norm(rotation)).tolist(), "translation": T[:3, 3].tolist()}

@@ -1,8 +1,9 @@
 """The building as one watertight solid, carved from a block.
 
-    block    the outline of all rooms, from below the floor slab to above the highest ceiling slab
+    block    the outline of all rooms and shafts, from below the floor slab to above the highest ceiling slab
     rooms    each interior from floor to its ceiling                         -> FLOOR, CEILING, WALL
     doors    from one wall face to the other, sill to head                   -> FLOOR under the door, REVEAL
+    hatches  the same                                                        -> REVEAL
     windows  from the inner face to the pane and from the outer face to it   -> REVEAL and PANE; EXTERIOR
              (what is left between is the glass)
     entrances  the same, and what is left between is the closed leaf         -> REVEAL; EXTERIOR
@@ -74,8 +75,12 @@ def _moved(plan: FloorPlan, shift: np.ndarray) -> FloorPlan:
     rooms = []
     for room in plan.rooms:
         openings = tuple(dataclasses.replace(opening, segment=opening.segment + shift) for opening in room.openings)
-        rooms.append(dataclasses.replace(room, polygon=room.polygon + shift, openings=openings))
-    return dataclasses.replace(plan, rooms=tuple(rooms))
+        walls = tuple(dataclasses.replace(wall, segment=wall.segment + shift) for wall in room.walls)
+        holes, columns = (tuple(ring + shift for ring in rings) for rings in (room.holes, room.columns))
+        rooms.append(
+            dataclasses.replace(room, polygon=room.polygon + shift, openings=openings, holes=holes, columns=columns, walls=walls)
+        )
+    return dataclasses.replace(plan, rooms=tuple(rooms), solids=tuple(ring + shift for ring in plan.solids))
 
 
 def _label(room: int, kind: SurfaceKind) -> int:
@@ -86,8 +91,8 @@ _SKIN = _label(OUTSIDE, SurfaceKind.EXTERIOR)
 
 
 def outline(plan: FloorPlan) -> Polygon | shapely.MultiPolygon:
-    """The building from above: the union of the room polygons, gaps narrower than SHARED closed."""
-    rooms = shapely.union_all(room_polygons(plan))
+    """The building from above: the union of the rooms and of its solid parts, gaps narrower than SHARED closed."""
+    rooms = shapely.union_all([*room_polygons(plan), *map(Polygon, plan.solids)])
     mitred = {"join_style": "mitre", "mitre_limit": 1e3}
     closed = rooms.buffer(SHARED / 2 + 1e-6, **mitred).buffer(-SHARED / 2 - 1e-6, **mitred)
     return shapely.simplify(closed, 1e-7)
@@ -112,13 +117,14 @@ def _rooms(plan: FloorPlan) -> list[LabelledSolid]:
 def _openings(plan: FloorPlan) -> list[LabelledSolid]:
     solids = []
     for portal in portals(plan):
-        solids.extend([_door(portal)] if portal.is_way else _closed(portal))
+        solids.extend([_hole(portal)] if portal.is_open else _closed(portal))
     return solids
 
 
-def _door(portal: Portal) -> LabelledSolid:
+def _hole(portal: Portal) -> LabelledSolid:
     """From face to face, and on into the free air of both rooms. Faces may be askew: only where it narrows may it leave them."""
-    floor, reveal = _label(portal.rooms[0], SurfaceKind.FLOOR), _label(portal.rooms[0], SurfaceKind.REVEAL)
+    reveal = _label(portal.rooms[0], SurfaceKind.REVEAL)
+    floor = reveal if portal.sill > 0 else _label(portal.rooms[0], SurfaceKind.FLOOR)
     first, last = -portal.depths[0], portal.depths[1]
     steps = [(first - OVERSHOOT, INSET), (first, 0.0), (last, 0.0), (last + OVERSHOOT, INSET)]
     return tunnel(_sections(portal, steps), bottom=floor, side=reveal, first=reveal, last=reveal)
@@ -139,8 +145,8 @@ def _closed(portal: Portal) -> list[LabelledSolid]:
 
 
 def _barrier(portal: Portal) -> float:
-    """Metres of what closes an opening: glass or a door's leaf, 0 of a way."""
-    if portal.is_way:
+    """Metres of what closes an opening: glass or a door's leaf, 0 of a hole from room to room."""
+    if portal.is_open:
         return 0.0
     return min(PANE if portal.kind == "window" else LEAF, sum(portal.half_depths) / 4)
 

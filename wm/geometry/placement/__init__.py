@@ -9,4 +9,6 @@
     upright        setting things upright and moving them
     upright_box    boxes that stand upright
     navigation     navigability: the occupancy grid and its largest component
+    navmesh        build_navmesh: where a body can be, as triangles by room
+    spawn          standing places to begin at: of the house, of each room
 """

@@ -4,7 +4,8 @@ A cell is free if its centre lies on a room's floor or in a door or passage, and
 centres are tested, so a wall askew to the grid closes no door of more than two cells. A body of radius r fits where its
 centre is r away from every wall and object. Where it gets to is decided in the plane, without a grid: whether it passes a door
 depends on the door's width and not on where the cells fall.
-Source: WorldMesh, supplement, "Navigability" (0.15 m, largest 4-connected component); the body is ours.
+Between parts of a plan that no door joins (connected_parts) a visitor goes through the open air, where each has an entrance.
+Source: WorldMesh, supplement, "Navigability" (0.15 m, largest 4-connected component); the body and the parts are ours.
 """
 
 import dataclasses
@@ -17,6 +18,7 @@ from shapely.geometry.base import BaseGeometry
 from skimage.measure import label
 
 from wm.geometry.placement.clearances import STEP
+from wm.geometry.plan.connected import connected_parts, entrances
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.plan.openings import portals
 from wm.geometry.plan.portal import Portal
@@ -50,26 +52,54 @@ def navigability(plan: FloorPlan, objects: Sequence[SceneObject], settings: Navi
     lower than `obstacle_height`; what is lower than STEP is walked over.
     """
     floor = walkable_floor(plan)
-    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
-    area = floor.difference(outlines(standing, STEP, settings.obstacle_height))
+    area = floor.difference(_obstacles(objects, settings))
     low, high = np.array(floor.bounds[:2]), np.array(floor.bounds[2:])
     columns, rows = (int(n) for n in np.ceil((high - low) / settings.cell))
     free = cells_inside(area, low, settings.cell, (rows, columns))
-    component, share = _components(free)
-    share_body = _largest_share(area.buffer(_FIT - settings.body_radius))
+    component = _components(free)
+    doors = {portal.wall.room for portal in entrances(plan)}
+    outside = [bool(doors & set(part)) for part in connected_parts(plan)]
+    parts = [walkable_floor(plan, part) for part in connected_parts(plan)]
+    cells = [component[free & cells_inside(part, low, settings.cell, free.shape)] for part in parts]
+    share = _share([np.bincount(of_part)[1:] for of_part in cells], outside)
+    body = [_fitting(part.intersection(area), settings) for part in parts]
+    share_body = _share([shapely.area(shapely.get_parts(piece)) for piece in body], outside)
     return Navigability(share=share, share_body=share_body, free=free, component=component, origin=low, cell=settings.cell)
 
 
-def _largest_share(area: BaseGeometry) -> float:
-    """The share of an area that its largest connected piece has; 0 of none."""
-    pieces = shapely.area(shapely.get_parts(area))
-    return float(pieces.max() / pieces.sum()) if pieces.sum() > 0 else 0.0
+def _share(parts: Sequence[np.ndarray], outside: Sequence[bool]) -> float:
+    """The share of all that the largest piece has, and the largest of every other part where both lead outside; 0 of none.
+
+    Args:
+      parts: the sizes of the pieces of each part.
+      outside: whether a part has an entrance.
+    """
+    total = float(sum(pieces.sum() for pieces in parts))
+    largest = [float(pieces.max(initial=0)) for pieces in parts]
+    together = sum(size for size, leads in zip(largest, outside) if leads)
+    return max(together, *largest) / total if total > 0 else 0.0
 
 
-def walkable_floor(plan: FloorPlan) -> BaseGeometry:
-    """The floors of all rooms and of the doors and passages between them."""
-    floors = [interior_polygon(plan, index) for index in range(len(plan.rooms))]
-    return shapely.union_all([*floors, *(_passage(portal) for portal in portals(plan) if portal.is_way)])
+def body_area(plan: FloorPlan, objects: Sequence[SceneObject], settings: NavigationSettings = _DEFAULTS) -> BaseGeometry:
+    """Where the centre of the body can be: what `Navigability.share_body` is the share of."""
+    return _fitting(walkable_floor(plan).difference(_obstacles(objects, settings)), settings)
+
+
+def _obstacles(objects: Sequence[SceneObject], settings: NavigationSettings) -> BaseGeometry:
+    standing = (thing.vertices[thing.faces] for thing in objects if thing.support in ("floor", "object"))
+    return outlines(standing, STEP, settings.obstacle_height)
+
+
+def _fitting(area: BaseGeometry, settings: NavigationSettings) -> BaseGeometry:
+    return area.buffer(_FIT - settings.body_radius)
+
+
+def walkable_floor(plan: FloorPlan, rooms: Sequence[int] | None = None) -> BaseGeometry:
+    """The floors of these rooms, or of all, and of the doors and passages between them."""
+    chosen = set(range(len(plan.rooms)) if rooms is None else rooms)
+    floors = [interior_polygon(plan, index) for index in sorted(chosen)]
+    ways = [_passage(portal) for portal in portals(plan) if portal.is_way and chosen.issuperset(portal.rooms)]
+    return shapely.union_all([*floors, *ways])
 
 
 def outlines(things: Iterable[Float[np.ndarray, "_ 3 3"]], low: float, high: float) -> BaseGeometry:
@@ -127,12 +157,11 @@ def _passage(portal: Portal) -> shapely.Polygon:
     return shapely.Polygon([start + before, end + before, end + behind, start + behind])
 
 
-def _components(free: Bool[np.ndarray, "gy gx"]) -> tuple[Int[np.ndarray, "gy gx"], float]:
-    """4-connected components by size, and the largest one's share of the free cells."""
+def _components(free: Bool[np.ndarray, "gy gx"]) -> Int[np.ndarray, "gy gx"]:
+    """4-connected components, numbered from the largest, 1, to the smallest; 0 where not free."""
     labels = np.asarray(label(free, connectivity=1), np.int32)
     count = int(labels.max(initial=0))
     sizes = np.bincount(labels.reshape(-1), minlength=count + 1)[1:]
     rank = np.zeros(count + 1, np.int32)
     rank[1 + np.argsort(-sizes, kind="stable")] = np.arange(1, count + 1)
-    share = float(sizes.max() / sizes.sum()) if count else 0.0
-    return rank[labels], share
+    return rank[labels]

@@ -14,6 +14,7 @@ from shapely.geometry import Polygon
 from wm.geometry.plan.records import FloorPlan
 from wm.geometry.plan.walls import SHARED, Wall, plan_walls, room_polygons
 
+ENTERED = 0.3  # metres: the radius of a disk that fits into every room that is entered, a little more than a body
 _MITRE = 4.0  # wall thicknesses beyond a corner at which a mitre is cut off
 _DUST = 1e-6  # square metres below which a part of an interior is rounding error
 
@@ -33,21 +34,25 @@ def interior_polygon(plan: FloorPlan, room_index: int) -> Polygon:
 @functools.lru_cache(maxsize=4)
 def interiors(plan: FloorPlan) -> tuple[Polygon | None, ...]:
     """The free floor of every room, None where the walls leave no floor in one piece; computed once per plan."""
-    return tuple(_interior(polygon, walls) for polygon, walls in zip(room_polygons(plan), plan_walls(plan)))
+    return tuple(
+        _interior(polygon, walls, room.columns) for room, polygon, walls in zip(plan.rooms, room_polygons(plan), plan_walls(plan))
+    )
 
 
-def _interior(polygon: Polygon, walls: tuple[Wall, ...]) -> Polygon | None:
-    """A polygon less the bodies of its walls.
+def _interior(polygon: Polygon, walls: tuple[Wall, ...], columns: tuple[np.ndarray, ...]) -> Polygon | None:
+    """A polygon less the bodies of its walls and its columns.
 
     shapely's buffer would do where all walls are equally thick, but it moves shallow corners by up to a hundredth of its
     distance, and openings are carved to within rounding error of a wall's face.
     """
-    bodies = []
-    for before, after in zip(walls, (*walls[1:], walls[0])):
-        bodies += [_band(before, after.start), *_corner(before, after)]
+    bodies = [Polygon(column) for column in columns]
+    for ring in range(walls[-1].ring + 1):
+        around = [wall for wall in walls if wall.ring == ring]
+        for before, after in zip(around, (*around[1:], around[0])):
+            bodies += [_band(before, after.start), *_corner(before, after)]
     rest = polygon.difference(shapely.union_all(bodies))
     parts = [part for part in shapely.get_parts(rest) if part.area > _DUST]
-    if len(parts) != 1 or len(parts[0].interiors):
+    if len(parts) != 1:
         return None
     clean = shapely.simplify(parts[0], 1e-7)
     return shapely.orient_polygons(clean)

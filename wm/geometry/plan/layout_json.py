@@ -9,9 +9,19 @@ from typing import Any
 import numpy as np
 
 from wm.geometry.plan.object_json import object_json, read_objects
-from wm.geometry.plan.records import CEILING_HEIGHT, WALL_THICKNESS, FloorPlan, Opening, PlanError, PlanObject, Room, Violation
+from wm.geometry.plan.outlines import counter_clockwise, keyhole
+from wm.geometry.plan.records import (
+    CEILING_HEIGHT,
+    WALL_THICKNESS,
+    FloorPlan,
+    Opening,
+    PlanError,
+    PlanObject,
+    Room,
+    ThickWall,
+    Violation,
+)
 from wm.geometry.plan.units import METRES, OPENINGS, metres_per, opening_kind, unread
-from wm.geometry.plan.walls import distinct
 from wm.schema import LONGEST_ROOM_NAME
 
 MAX_BYTES = 8 * 2**20
@@ -19,14 +29,14 @@ MAX_ROOMS = 2048
 MAX_POINTS = 512  # per polygon
 MAX_OPENINGS = 64  # per room
 MAX_COORDINATE = 1e4  # metres
-CEILING = (1.8, 50.0)  # metres: nobody can stand under a lower ceiling
+CEILING = (1.2, 50.0)  # metres: from attics that people crawl into to halls
 WALL = (0.05, 1.0)
 WIDEST = 100.0  # metres, of an opening
-WINDOW_SILL = 0.9  # where a window does not say
+SILLS = {"window": 0.9, "hatch": 0.9}  # metres, where an opening does not say
+MAX_RINGS = 256  # holes, columns and walls of their own thickness, of a room
 # Ids become folder names (views/<room>/), so they hold no character that means something in a path.
 ROOM_ID = re.compile(r"[^\W_][\w\-]{0,63}", re.ASCII)
-OPENING_SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
-"""Least width and height, metres; a body of 0.25 m radius must pass a door."""
+LEAST_OPENING = (0.1, 0.1)  # metres of width and height
 _MOST_NOTES = 20
 
 
@@ -60,10 +70,18 @@ def encode(plan: FloorPlan) -> str:
         "rooms": [_room_json(room) for room in plan.rooms],
         "objects": [object_json(thing) for thing in plan.objects],
     }
+    if plan.solids:
+        document["solids"] = [ring.tolist() for ring in plan.solids]
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def _room_json(room: Room) -> dict[str, Any]:
+    more: dict[str, Any] = {}
+    for key, rings in (("holes", room.holes), ("columns", room.columns)):
+        if rings:
+            more[key] = [ring.tolist() for ring in rings]
+    if room.walls:
+        more["walls"] = [{"segment": wall.segment.tolist(), "thickness": wall.thickness} for wall in room.walls]
     return {
         "id": room.id,
         "name": room.name,
@@ -80,6 +98,7 @@ def _room_json(room: Room) -> dict[str, Any]:
             }
             for opening in room.openings
         ],
+        **more,
     }
 
 
@@ -116,7 +135,8 @@ class Reader:
         read = [self._room(room, index, ceiling) for index, room in enumerate(rooms)]
         good = tuple(room for room in read if room is not None)
         self.rooms_missing = len(good) < len(read)
-        return FloorPlan(good, wall, ceiling) if good else None
+        solids = tuple(counter_clockwise(ring) for ring in self._rings(None, document, "solids"))
+        return FloorPlan(good, wall, ceiling, solids=solids) if good else None
 
     def blame_units(self, document: Any) -> None:
         """Makes one violation of all numbers out of range where each would be in range in metres: the unit is what is wrong."""
@@ -182,8 +202,8 @@ class Reader:
             wanted = f"one line of at most {LONGEST_ROOM_NAME} printable characters"
             self._fault(name, "type", f"'name' is {_show(title)}; it must be {wanted}")
             title = name
-        height = self._number(name, value, "ceiling_height", ceiling, *CEILING)
-        polygon = self._points(name, value.get("floor_polygon"), "floor_polygon", 3, MAX_POINTS)
+        height = self._ceiling(name, value, ceiling)
+        polygon, holes = self._outline(name, value)
         openings = _given(value, "openings", [])
         if not isinstance(openings, list) or len(openings) > MAX_OPENINGS:
             found = f"{len(openings)} long" if isinstance(openings, list) else _kind(openings)
@@ -195,8 +215,79 @@ class Reader:
         self.openings_missing |= len(good) < len(read)
         if polygon is None:
             return None
-        # A height that cannot be read must not make openings reach above it.
-        return Room(name, title, _counter_clockwise(polygon), CEILING[1] if height is None else height, good)
+        return Room(
+            id=name,
+            name=title,
+            polygon=polygon,
+            ceiling_height=CEILING[1] if height is None else height,  # one that cannot be read makes no opening reach above it
+            openings=good,
+            holes=holes,
+            columns=tuple(counter_clockwise(ring) for ring in self._rings(name, value, "columns")),
+            walls=self._walls(name, value),
+        )
+
+    def _ceiling(self, room: str, value: dict[str, Any], default: float) -> float | None:
+        if isinstance(value.get("ceiling_height"), list | dict):
+            what = "ceiling_height has several heights; ceilings are level: give one number of metres, or split the room"
+            self._fault(room, "type", what)
+            return None
+        return self._number(room, value, "ceiling_height", default, *CEILING)
+
+    def _outline(self, room: str, value: dict[str, Any]) -> tuple[np.ndarray | None, tuple[np.ndarray, ...]]:
+        """The outline and the holes of a room: `holes`, further rings in `floor_polygon`, or slits of its one ring."""
+        given = value.get("floor_polygon")
+        inner: list[Any] = []
+        if isinstance(given, list) and given and all(isinstance(ring, list) and len(ring) > 2 for ring in given):
+            given, *inner = given
+        outline = self._points(room, given, "floor_polygon", 3, MAX_POINTS)
+        rings = [*self._rings(room, {"floor_polygon": inner}, "floor_polygon"), *self._rings(room, value, "holes")]
+        if outline is None:
+            return None, ()
+        outline, slits = keyhole(counter_clockwise(outline))
+        return outline, (*slits, *(counter_clockwise(ring)[::-1].copy() for ring in rings))
+
+    def _rings(self, room: str | None, holder: dict[str, Any], key: str) -> list[np.ndarray]:
+        """The polygons [k, 2] of a list of polygons; those that cannot be read are faults."""
+        value = _given(holder, key, [])
+        if not isinstance(value, list) or len(value) > MAX_RINGS:
+            self._fault(room, "type", f"{key} is {_kind(value)}; it must be a list of at most {MAX_RINGS} polygons")
+            return []
+        read = [self._points(room, ring, f"{key}[{k}]", 3, MAX_POINTS) for k, ring in enumerate(value)]
+        return [ring for ring in read if ring is not None]
+
+    def _walls(self, room: str, value: dict[str, Any]) -> tuple[ThickWall, ...]:
+        """The walls of a room that say how thick they are: `wall_thickness`, one number or one for each edge, and `walls`."""
+        walls: list[ThickWall] = []
+        outline, given = value.get("floor_polygon"), _given(value, "wall_thickness", [])
+        if given != [] and isinstance(outline, list) and outline:
+            ring = outline[0] if isinstance(outline[0], list) and outline[0] and isinstance(outline[0][0], list) else outline
+            edges = list(zip(ring, [*ring[1:], ring[0]]))
+            if not isinstance(given, list):
+                given = [given] * len(edges)
+            if len(given) not in (len(edges), len(edges) - 1):  # the last is missing where the first point is repeated
+                message = (
+                    f"wall_thickness is a list of {len(given)}; it must be one number, or one for each of {len(edges)} edges"
+                )
+                self._fault(room, "type", message)
+                given = []
+            rows = [
+                {"segment": list(edge), "thickness": one}
+                for edge, one in zip(edges, given)
+                if one is not None and edge[0] != edge[1]
+            ]
+            walls += [wall for k, row in enumerate(rows) if (wall := self._wall(room, row, f"wall_thickness[{k}]")) is not None]
+        listed = _given(value, "walls", [])
+        if not isinstance(listed, list) or len(listed) > MAX_RINGS or not all(isinstance(row, dict) for row in listed):
+            self._fault(room, "type", f"'walls' must be a list of at most {MAX_RINGS} objects with segment and thickness")
+            listed = []
+        walls += [wall for k, row in enumerate(listed) if (wall := self._wall(room, row, f"walls[{k}]")) is not None]
+        return tuple(walls)
+
+    def _wall(self, room: str, row: dict[str, Any], name: str) -> ThickWall | None:
+        self._note_unread(row, "wall", f"room {room}, {name},")
+        segment = self._points(room, row.get("segment"), f"{name}.segment", 2, 2)
+        thickness = self._number(room, row, f"{name}.thickness", None, *WALL)
+        return None if segment is None or thickness is None else ThickWall(segment, thickness)
 
     def _opening(self, room: str, value: Any, k: int) -> Opening | None:
         name = f"openings[{k}]"
@@ -209,19 +300,10 @@ class Reader:
             self._fault(room, "opening_type", f"{name}.type is {_show(value.get('type'))}; choices: {', '.join(OPENINGS)}")
             return None
         segment = self._points(room, value.get("wall_segment"), f"{name}.wall_segment", 2, 2)
-        least_width, least_height = OPENING_SIZES[kind]
         position = self._number(room, value, f"{name}.position", None, 0.0, MAX_COORDINATE)
-        why = "" if kind == "window" else ", so that a person gets through"
-        width = self._number(room, value, f"{name}.width", None, least_width, WIDEST, why)
-        height = self._number(room, value, f"{name}.height", None, least_height, CEILING[1], why)
-        sill = self._number(
-            room,
-            value,
-            f"{name}.sill_height",
-            WINDOW_SILL if kind == "window" else 0.0,
-            0.0,
-            CEILING[1] if kind == "window" else 0.0,
-        )
+        width = self._number(room, value, f"{name}.width", None, LEAST_OPENING[0], WIDEST)
+        height = self._number(room, value, f"{name}.height", None, LEAST_OPENING[1], CEILING[1])
+        sill = self._number(room, value, f"{name}.sill_height", SILLS.get(kind, 0.0), 0.0, CEILING[1])
         if segment is None or position is None or width is None or height is None or sill is None:
             return None
         if not np.linalg.norm(segment[1] - segment[0]) > 1e-3:
@@ -229,9 +311,7 @@ class Reader:
             return None
         return Opening(kind, segment, position, width, height, sill)
 
-    def _number(
-        self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float, why: str = ""
-    ) -> float | None:
+    def _number(self, room: str | None, holder: dict, path: str, default: float | None, low: float, high: float) -> float | None:
         value = _given(holder, path.rsplit(".", 1)[-1], None)
         if value is None and default is not None:
             return default
@@ -241,11 +321,11 @@ class Reader:
         if not low <= value * self.scale <= high:  # also false for infinities
             wanted = f"{low:g}" if low == high else f"between {low:g} and {high:g}"
             found = _show(value) if self.scale == 1 else f"{_show(value)} ({value * self.scale:.4g} m)"
-            self._fault(room, "number", f"{path} is {found}; it must be {wanted} (metres){why}")
+            self._fault(room, "number", f"{path} is {found}; it must be {wanted} (metres)")
             return None
         return float(value) * self.scale
 
-    def _points(self, room: str, value: Any, path: str, least: int, most: int) -> np.ndarray | None:
+    def _points(self, room: str | None, value: Any, path: str, least: int, most: int) -> np.ndarray | None:
         """[k, 2] of a list of [x, y]; one violation for the first fault."""
         if not isinstance(value, list) or not least <= len(value) <= most:
             found = "missing" if value is None else f"{len(value)} points long" if isinstance(value, list) else _kind(value)
@@ -262,14 +342,6 @@ class Reader:
                 )
                 return None
         return np.array(value, dtype=np.float64) * self.scale
-
-
-def _counter_clockwise(points: np.ndarray) -> np.ndarray:
-    """The polygon without repeated neighbouring points, counter-clockwise; clockwise ones are reversed."""
-    points = distinct(points)
-    x, y = points.T
-    area = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
-    return points[::-1].copy() if area < 0 else points
 
 
 def _given(holder: dict[str, Any], key: str, default: Any) -> Any:

@@ -10,8 +10,12 @@ others, and no field has several types. Lists have no upper bound, since grammar
 
 from typing import Any
 
-from wm.geometry.plan.layout_json import CEILING, MAX_COORDINATE, OPENING_SIZES, WALL, WIDEST
+from wm.geometry.plan.layout_json import CEILING, MAX_COORDINATE, WALL, WIDEST
 from wm.schema import LONGEST_ROOM_NAME
+
+STANDING = (1.8, CEILING[1])  # metres of ceiling: nobody can stand under a lower one
+OPENING_SIZES = {"door": (0.5, 1.7), "passage": (0.5, 1.7), "window": (0.1, 0.1)}
+"""Least width and height, metres; a body of 0.25 m radius passes a door without stooping."""
 
 
 def layout_schema() -> dict[str, Any]:
@@ -20,13 +24,13 @@ def layout_schema() -> dict[str, Any]:
         units={"type": "string", "enum": ["meters"]},
         coordinate_system={"type": "string", "enum": ["z_up"]},
         wall_thickness=_number(*WALL),
-        default_ceiling_height=_number(*CEILING),
+        default_ceiling_height=_number(*STANDING),
     )
     room = _object(
         id={"type": "string", "pattern": "^[A-Za-z0-9][A-Za-z0-9_-]{0,63}$"},
         name={"type": "string", "minLength": 1, "maxLength": LONGEST_ROOM_NAME},
         floor_polygon=_list(_point(), 3),
-        ceiling_height=_number(*CEILING),
+        ceiling_height=_number(*STANDING),
         openings=_list({"anyOf": [_opening("door", "passage"), _opening("window")]}, 0),
     )
     return _object(metadata=metadata, rooms=_list(room, 1))

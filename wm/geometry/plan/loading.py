@@ -1,26 +1,32 @@
 """Floor plans: the published WorldMesh layout JSON in and out.
 
 Accepted beyond the published rules: concave and non-rectangular simple polygons, walls shared in part, several openings a
-wall, ceilings of different heights, doors listed by one room or both, doors to the outside (closed), clockwise polygons
-(reversed), a first point repeated at the end, lengths in other units, null for what has a default. What is read only in part
-or changed is warned of: unknown keys, and walls of two rooms that nearly touch, which are made one. Everything else that a
-plan can do wrong has a name in `wm.geometry.plan.rules.RULES`.
+wall, ceilings of different heights, doors listed by one room or both, doors to the outside (closed), holes, columns, clockwise
+polygons (reversed), a first point repeated at the end, lengths in other units, null for what has a default. What is read only in
+part or changed is warned of: unknown keys, walls of two rooms that nearly touch, which are made one, what is carried in another
+form (`adapting`), and, where it is asked for, what was repaired (`repair`, `fitting`). Everything else that a plan can do wrong
+has a name in `wm.geometry.plan.rules.RULES`. docs/plans.md says all of it for users.
 """
 
 import dataclasses
+import functools
 import os
 import warnings
 from pathlib import Path
 from typing import Any
 
+from wm.geometry.plan.adapting import adapted, columns_for_holes, doubts
+from wm.geometry.plan.connected import connected_parts
+from wm.geometry.plan.fitting import fitted
 from wm.geometry.plan.layout_json import MAX_BYTES, Reader, decode, encode
 from wm.geometry.plan.records import FloorPlan, Opening, PlanError, PlanWarning, Room, Violation
-from wm.geometry.plan.rules import check_plan
+from wm.geometry.plan.repair import repaired
+from wm.geometry.plan.rules import check_plan, is_sound
 from wm.geometry.plan.snapping import snapped
 
 __all__ = [
     "FloorPlan", "Opening", "PlanError", "PlanReading", "PlanWarning", "Room", "Violation", "load_plan", "parse_plan",
-    "plan_to_json", "read_plan", "read_plan_file",
+    "plan_to_json", "read_plan", "read_plan_file", "stored_plan",
 ]  # fmt: skip
 
 
@@ -32,8 +38,13 @@ class PlanReading:
     notes: tuple[str, ...]
 
 
-def load_plan(path: str | os.PathLike[str]) -> FloorPlan:
+def load_plan(path: str | os.PathLike[str], *, repair: bool = False, unreachable: str = "warn") -> FloorPlan:
     """The floor plan in a JSON file.
+
+    Args:
+      path: of the file.
+      repair: whether walls drawn as gaps, overlapping rooms and openings that do not fit their walls are mended.
+      unreachable: "warn" or "refuse", of rooms that no way leads to from the largest part of the plan or from outside.
 
     Raises:
       PlanError: the file cannot be read (rule "file"), or as `parse_plan`.
@@ -41,12 +52,12 @@ def load_plan(path: str | os.PathLike[str]) -> FloorPlan:
     Warns:
       PlanWarning: a key is not read, or walls were moved.
     """
-    reading = read_plan_file(path)
+    reading = read_plan_file(path, repair=repair, unreachable=unreachable)
     _warn(reading, os.fspath(path))
     return reading.plan
 
 
-def read_plan_file(path: str | os.PathLike[str]) -> PlanReading:
+def read_plan_file(path: str | os.PathLike[str], *, repair: bool = False, unreachable: str = "warn") -> PlanReading:
     """`load_plan`, with what it would warn of as notes."""
     source = os.fspath(path)
     try:
@@ -62,15 +73,25 @@ def read_plan_file(path: str | os.PathLike[str]) -> PlanReading:
     except (OSError, ValueError) as error:  # ValueError: a path with a null character
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         raise PlanError((Violation(None, "file", f"cannot be read: {reason}"),), source) from None
-    return read_plan(decode(text, source), source, Path(path).absolute().parent)
+    return read_plan(decode(text, source), source, Path(path).absolute().parent, repair=repair, unreachable=unreachable)
 
 
-def parse_plan(text: str, source: str = "plan") -> FloorPlan:
+def stored_plan(path: str | os.PathLike[str]) -> FloorPlan:
+    """The plan that a run has written; what is to be said of it was said when it was made, so nothing is warned of.
+
+    Raises:
+      PlanError: as `load_plan`.
+    """
+    return read_plan_file(path).plan
+
+
+def parse_plan(text: str, source: str = "plan", *, repair: bool = False, unreachable: str = "warn") -> FloorPlan:
     """The floor plan in a JSON text.
 
     Args:
       text: JSON as in design.md, "Floor plan JSON".
       source: what the error calls the plan.
+      repair, unreachable: as for `load_plan`.
 
     Raises:
       PlanError: with every violation at once, each with the room's id and the rule's name.
@@ -78,16 +99,19 @@ def parse_plan(text: str, source: str = "plan") -> FloorPlan:
     Warns:
       PlanWarning: a key is not read, or walls were moved.
     """
-    reading = read_plan(decode(text, source), source)
+    reading = read_plan(decode(text, source), source, repair=repair, unreachable=unreachable)
     _warn(reading, source)
     return reading.plan
 
 
-def read_plan(document: Any, source: str, folder: Path | None = None) -> PlanReading:
+def read_plan(
+    document: Any, source: str, folder: Path | None = None, *, repair: bool = False, unreachable: str = "warn"
+) -> PlanReading:
     """The floor plan in a decoded JSON document, its walls snapped (wm.geometry.plan.snapping).
 
     Args:
       folder: where the mesh files lie that the plan names; without it, the working directory.
+      repair, unreachable: as for `load_plan`.
 
     Raises:
       PlanError: as `parse_plan`.
@@ -95,18 +119,46 @@ def read_plan(document: Any, source: str, folder: Path | None = None) -> PlanRea
     reader = Reader()
     plan = reader.plan(document)
     reader.blame_units(document)
-    changes: tuple[str, ...] = ()
-    violations: list[Violation] = []
-    if plan is not None:
-        rooms, changes = snapped(plan.rooms)
-        plan = dataclasses.replace(plan, rooms=rooms)
-        violations += check_plan(plan, rooms_missing=reader.rooms_missing, openings_missing=reader.openings_missing)
-        if not violations and not reader.violations:
-            plan = dataclasses.replace(plan, objects=reader.objects(document, rooms, folder))
-    violations = [*reader.violations, *violations]
-    if plan is None or violations:
+    if plan is None:
+        raise PlanError(tuple(reader.violations), source)
+    missing = {"rooms_missing": reader.rooms_missing, "openings_missing": reader.openings_missing}
+    settled = _settled(plan, repair=False, unreachable=unreachable == "refuse", **missing)
+    if repair and (settled.violations or len(connected_parts(settled.plan)) > 1):
+        mended = _settled(plan, repair=True, unreachable=unreachable == "refuse", **missing)
+        settled = mended if settled.violations or not mended.violations else settled
+    violations = [*reader.violations, *settled.violations]
+    plan = settled.plan
+    if not violations:
+        plan = dataclasses.replace(plan, objects=reader.objects(document, plan.rooms, folder))
+        violations = reader.violations
+    if violations:
         raise PlanError(tuple(violations), source)
-    return PlanReading(plan, (*reader.notes, *changes))
+    return PlanReading(plan, (*reader.notes, *settled.notes, *doubts(plan)))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Settled:
+    """A plan in the form in which it is built, what was changed for that, and what is wrong with it."""
+
+    plan: FloorPlan
+    notes: tuple[str, ...]
+    violations: tuple[Violation, ...]
+
+
+def _settled(plan: FloorPlan, *, repair: bool, unreachable: bool, rooms_missing: bool, openings_missing: bool) -> _Settled:
+    rooms, notes = plan.rooms, ()
+    if repair and is_sound(rooms):
+        rooms, notes = repaired(rooms)
+    rooms, joined = snapped(rooms)
+    notes, sound = (*notes, *joined), is_sound(rooms)
+    rooms, columns = columns_for_holes(rooms)
+    notes, plan = (*notes, *columns), dataclasses.replace(plan, rooms=rooms)
+    if sound:
+        for change in (adapted, functools.partial(fitted, repair=repair), adapted):
+            plan, more = change(plan)
+            notes = (*notes, *more)
+    violations = check_plan(plan, rooms_missing=rooms_missing, openings_missing=openings_missing, unreachable=unreachable)
+    return _Settled(plan, notes, violations)
 
 
 def _warn(reading: PlanReading, source: str) -> None:

@@ -18,6 +18,7 @@ import numpy as np
 import shapely
 
 from wm.geometry.plan.records import PlanObject, Room, Violation
+from wm.geometry.plan.walls import room_polygon
 
 MAX_OBJECTS = 4096
 SUPPORTS = ("floor", "flat", "wall", "ceiling", "object")
@@ -115,7 +116,7 @@ def _object(row: dict[str, Any], rooms: Sequence[Room], scale: float, folder: Pa
 def _room(asked: Any, position: tuple[float, ...], rooms: Sequence[Room]) -> int:
     """The room that a position lies in."""
     place = shapely.Point(position[:2])
-    room = next((k for k, room in enumerate(rooms) if shapely.Polygon(room.polygon).covers(place)), None)
+    room = next((k for k, room in enumerate(rooms) if room_polygon(room).covers(place)), None)
     at = f"position ({position[0]:g}, {position[1]:g})"
     if room is None:
         raise _Fault(f"{at} is in no room")
@@ -135,7 +136,7 @@ def _check_place(thing: PlanObject, room: Room) -> None:
     c, s = math.cos(math.radians(thing.yaw)), math.sin(math.radians(thing.yaw))
     corners = np.array([[-width, -depth], [width, -depth], [width, depth], [-width, depth]]) / 2 @ np.array([[c, s], [-s, c]])
     outline = shapely.Polygon(corners + thing.position[:2])
-    if not shapely.Polygon(room.polygon).buffer(_REACH).covers(outline):
+    if not room_polygon(room).buffer(_REACH).covers(outline):
         raise _Fault(f"it reaches out of the floor_polygon of {room.id}; move it in or make it smaller", room.id)
 
 

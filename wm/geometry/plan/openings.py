@@ -10,6 +10,7 @@ from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan, Opening, PlanError, Violation
 from wm.geometry.plan.walls import SHARED, Wall, plan_walls
 
+MENDS = " (plan.repair=true moves or narrows it)"
 _SAME = 0.02  # metres by which the two entries of one door may differ, one in each room's list
 APART = 0.01  # metres of wall at least between two openings: of less the carving leaves films, or sheets of no thickness
 
@@ -42,7 +43,7 @@ def place_openings(plan: FloorPlan, unknown: shapely.Geometry | None = None) -> 
     violations: list[Violation] = []
     for room, walls in zip(plan.rooms, plan_walls(plan)):
         for k, opening in enumerate(room.openings):
-            portal = _place(k, opening, walls)
+            portal = place(k, opening, walls)
             if isinstance(portal, Portal):
                 placed.append(portal)
                 continue
@@ -65,12 +66,12 @@ def opening_ends(opening: Opening) -> np.ndarray:
     return start + np.array([[opening.position], [opening.position + opening.width]]) * direction
 
 
-def _place(k: int, opening: Opening, walls: tuple[Wall, ...]) -> Portal | tuple[str, str]:
+def place(k: int, opening: Opening, walls: tuple[Wall, ...]) -> Portal | tuple[str, str]:
     """One opening of a room on one of that room's walls, or the rule that it breaks and how."""
     name = describe(opening, k)
     length = float(np.linalg.norm(opening.segment[1] - opening.segment[0]))
     if opening.position < -1e-9 or opening.position + opening.width > length + 1e-6:
-        return "opening_off_wall", f"{name} does not fit on its wall_segment of {length:g} m"
+        return "opening_off_wall", f"{name} does not fit on its wall_segment of {length:g} m{MENDS}"
     ends = opening_ends(opening)
     for wall in walls:
         offset = ends - wall.start
@@ -87,7 +88,7 @@ def _place(k: int, opening: Opening, walls: tuple[Wall, ...]) -> Portal | tuple[
             return "window_interior", f"{name} looks into another room; windows belong on exterior walls"
         behind = None
     elif behind is None and touched:
-        return "door_exterior", f"{name} does not lead into one other room; keep it within the wall shared with one"
+        return "door_exterior", f"{name} does not lead into one other room; keep it within the wall shared with one{MENDS}"
     elif behind is None and opening.kind == "passage":
         return "door_exterior", f"{name} leads outside; make it a door, which is closed, or put it on a wall shared with a room"
     return Portal(opening=opening, index=k, wall=wall, low=low, high=high, behind=behind)

@@ -13,6 +13,11 @@ from wm.geometry.plan.records import Opening
 from wm.geometry.plan.walls import Behind, Wall
 from wm.types import OUTSIDE
 
+WAY = (0.5, 1.2)
+"""Metres of width and height of the smallest door that people get through: a body of 0.25 m radius, stooping."""
+STEP = 0.05
+"""Metres of threshold that people step over; a hole that begins higher is a hatch."""
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Portal:
@@ -30,13 +35,31 @@ class Portal:
 
     @property
     def kind(self) -> str:
-        """door | window | passage"""
+        """door | window | passage | hatch"""
         return self.opening.kind
 
     @property
     def is_way(self) -> bool:
-        """Whether it joins two rooms. A window does not, nor does an entrance: a door in an exterior wall, which is closed."""
+        """Whether people get through it from one room into another.
+
+        They do not through windows and hatches, doors narrower or lower than a body, and entrances: doors in exterior walls,
+        which are closed.
+        """
+        return self.is_open and self.kind != "hatch" and self.sill <= STEP and self._fits_people
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is a hole from one room into another: a way, a hatch, or a door too small for people."""
         return self.behind is not None
+
+    @property
+    def is_entrance(self) -> bool:
+        """Whether it is a door to the outside that people get through."""
+        return self.behind is None and self.kind == "door" and self._fits_people
+
+    @property
+    def _fits_people(self) -> bool:
+        return self.opening.width >= WAY[0] - 1e-6 and self.opening.height >= WAY[1] - 1e-6
 
     @property
     def sill(self) -> float:
@@ -70,7 +93,7 @@ class Portal:
     @functools.cached_property
     def half_depths(self) -> tuple[float, float]:
         """Metres from the centre line to the wall's face in a and in b (or outside)."""
-        depth = self.wall.thickness / 2 if self.behind is None else self.wall.thickness - self._centre
+        depth = self.wall.thickness - self._centre
         return depth, depth
 
     @functools.cached_property
@@ -83,7 +106,7 @@ class Portal:
         mine = np.full(2, self.half_depths[0])
         if self.behind is None:
             return np.stack([mine, mine])
-        reach = self.wall.thickness * np.hypot(1.0, self.behind.slope)  # to the other face, along the normal of this one
+        reach = self.behind.thickness * np.hypot(1.0, self.behind.slope)  # to the other face, along the normal of this one
         theirs = np.array([self._centre + self.behind.gap(along) + reach for along in (self.low, self.high)])
         return np.stack([mine, theirs]) if self.rooms[0] == self.wall.room else np.stack([theirs[::-1], mine])
 
@@ -105,4 +128,6 @@ class Portal:
     @property
     def _centre(self) -> float:
         """Metres inside the line of `wall` at which the opening's centre line runs."""
-        return self.wall.thickness / 2 if self.behind is None else -self.gap / 2
+        if self.behind is None:
+            return self.wall.thickness / 2
+        return (self.wall.thickness - self.behind.thickness - self.gap) / 2

@@ -16,7 +16,7 @@ CEILING_HEIGHT = 2.8
 class Opening:
     """A hole in a wall. Its near edge lies `position` metres along `segment` from the segment's start."""
 
-    kind: str  # door | window | passage
+    kind: str  # door | window | passage | hatch (an open hole between two rooms that nobody walks through)
     segment: np.ndarray  # [2, 2] float64: start and end of a stretch of wall, in either direction
     position: float
     width: float
@@ -25,14 +25,28 @@ class Opening:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class ThickWall:
+    """A stretch of a room's outline whose wall is not as thick as the plan's others."""
+
+    segment: np.ndarray  # [2, 2] float64: start and end on the outline, in either direction
+    thickness: float  # metres, of the whole wall where it is shared
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Room:
-    """One room; the polygon's edge is the outer face of an exterior wall and the middle of a shared one."""
+    """One room; the polygon's edge is the outer face of an exterior wall and the middle of a shared one.
+
+    The rings of `holes` are walls too, with another room or a courtyard behind; `columns` are solid from floor to ceiling.
+    """
 
     id: str
     name: str
     polygon: np.ndarray  # [k, 2] float64, counter-clockwise, simple, first point not repeated
     ceiling_height: float
     openings: tuple[Opening, ...]
+    holes: tuple[np.ndarray, ...] = ()  # [k, 2] each, clockwise, simple, within the polygon
+    columns: tuple[np.ndarray, ...] = ()  # [k, 2] each, counter-clockwise, simple
+    walls: tuple[ThickWall, ...] = ()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,6 +71,7 @@ class FloorPlan:
     wall_thickness: float = WALL_THICKNESS  # of an exterior wall, and of a shared one (half of it in either room)
     default_ceiling_height: float = CEILING_HEIGHT
     objects: tuple[PlanObject, ...] = ()  # furniture of the user's own
+    solids: tuple[np.ndarray, ...] = ()  # [k, 2] counter-clockwise each: parts of the building that hold no room, such as shafts
 
 
 @dataclasses.dataclass(frozen=True)

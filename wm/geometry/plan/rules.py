@@ -6,22 +6,25 @@ another, or has a door beside it that is at fault itself.
 """
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
 
+from wm.geometry.plan.connected import joined_rooms
 from wm.geometry.plan.footprint import interiors
-from wm.geometry.plan.openings import describe, place_openings
+from wm.geometry.plan.openings import MENDS, describe, place_openings
 from wm.geometry.plan.portal import Portal
 from wm.geometry.plan.records import FloorPlan, Room, Violation
-from wm.geometry.plan.walls import SHARED, room_polygons
+from wm.geometry.plan.walls import SHARED, room_polygon, room_polygons
 
-LEAST_DISK = 0.3  # metres: a room must hold a disk of this radius, a little more than a body, to be entered
+LEAST_DISK = 0.1  # metres: a room must hold a disk of this radius, so that a view can look into it
 LEAST_AREA = 0.01  # square metres: a polygon of less counts as having no area
-OUTLOOK = 0.3  # metres of open air a window needs before it
+OUTLOOK = {"window": 0.3}  # metres of open air that an opening to the outside needs before it
+DOORSTEP = 0.55  # the same of every other opening: more than any gap that stands for a wall (wm.geometry.plan.repair.WIDEST)
 NEIGHBOUR = 0.5  # metres between rooms that a door may have been meant to join
-_TOO_SMALL = "; make it larger, or leave it out of the plan if nobody enters it"
-_ADVICE = "; put one on a wall that it shares"
+_TOO_SMALL = "; make it larger, or take away what opens into it: a shaft that nothing opens into is built as solid wall"
+_ADVICE = "; put one on a wall that it shares, or give it a door to the outside"
 MOST_OVERLAPS = 256  # more are not listed, and no other rule is checked then
 
 RULES = {
@@ -34,27 +37,30 @@ RULES = {
     "too_many": "There are not more rooms than can be meant.",
     "room_id": "Ids are 1 to 64 ASCII letters, digits, _ and -: they become folder names.",
     "duplicate_id": "No two rooms have one id, case aside.",
-    "opening_type": "An opening is a door, a window or a passage.",
+    "opening_type": "An opening is a door, a window, a passage or a hatch.",
     "object": "Furniture that the plan lists has a label, stands in a room, and has a size that fits or a mesh file.",
-    "self_intersection": "A room's polygon does not cross or touch itself.",
+    "self_intersection": "A room's polygon does not cross or touch itself; holes and columns are simple too, and lie within it.",
     "zero_area": "A room's polygon has an area.",
-    "room_too_small": "Inside its walls a room is one piece that holds a disk of 0.3 m radius.",
+    "room_too_small": "Inside its walls a room is one piece, and holds a disk of 0.1 m radius.",
     "rooms_overlap": "Rooms touch at most, within 0.01 m.",
     "opening_off_wall": "An opening lies on a wall of its room, between the corners inside and below the ceiling.",
     "openings_overlap": "Openings keep 0.01 m of wall between them; the two entries of one door agree.",
-    "door_exterior": "Doors and passages lead into exactly one other room, or doors to the outside.",
-    "window_interior": "Windows look outside.",
-    "unreachable": "Every room can be reached from every other through doors and passages.",
+    "door_exterior": "Doors, passages and hatches lead into exactly one other room, or to the outside.",
+    "window_interior": "Windows look outside, or into one other room.",
+    "unreachable": "Every room can be reached from most others, or from outside (plan.unreachable=refuse).",
 }
 
 
-def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing: bool = False) -> tuple[Violation, ...]:
+def check_plan(
+    plan: FloorPlan, *, rooms_missing: bool = False, openings_missing: bool = False, unreachable: bool = True
+) -> tuple[Violation, ...]:
     """Every rule that a plan of well-formed records breaks.
 
     Args:
       plan: rooms as `Reader` makes them: numbers finite and in range, polygons counter-clockwise.
       rooms_missing: whether there are more rooms that could not be read.
       openings_missing: whether rooms have more openings that could not be read.
+      unreachable: whether rooms that cannot be reached break a rule.
     """
     violations = _duplicates(plan)
     faults = [_shape_fault(room) for room in plan.rooms]
@@ -70,12 +76,17 @@ def check_plan(plan: FloorPlan, *, rooms_missing: bool = False, openings_missing
         return tuple(violations)
     portals, misplaced = place_openings(plan, unknown)
     of_openings = [*misplaced]
-    of_openings += [fault for portal in portals if (fault := _squeezed(plan, portal)) is not None]
+    of_openings += [fault for portal in portals if (fault := squeezed(plan, portal)) is not None]
     of_openings += _blocked(plan, portals)
     violations += [*_cramped(plan), *of_openings]
-    if unknown is None and not openings_missing:
+    if unreachable and unknown is None and not openings_missing:
         violations += _unreachable(plan, portals, doubtful=[*overlaps, *of_openings])
     return tuple(violations)
+
+
+def is_sound(rooms: Sequence[Room]) -> bool:
+    """Whether the shape of every room, on its own, keeps the rules."""
+    return all(_shape_fault(room) is None for room in rooms)
 
 
 def _duplicates(plan: FloorPlan) -> list[Violation]:
@@ -97,6 +108,12 @@ def _shape_fault(room: Room) -> Violation | None:
         return Violation(room.id, "self_intersection", f"floor_polygon is not simple: {shapely.is_valid_reason(polygon)}")
     if polygon.area < LEAST_AREA:
         return Violation(room.id, "zero_area", f"floor_polygon covers less than {LEAST_AREA:g} m^2")
+    for name, rings in (("holes", room.holes), ("columns", room.columns)):
+        for k, ring in enumerate(rings):
+            if not shapely.Polygon(ring).is_valid or not polygon.buffer(SHARED).covers(shapely.Polygon(ring)):
+                return Violation(room.id, "self_intersection", f"{name}[{k}] is not a simple polygon within floor_polygon")
+    if not room_polygon(room).is_valid:
+        return Violation(room.id, "self_intersection", "holes overlap or touch each other or the floor_polygon")
     if polygon.buffer(-LEAST_DISK).is_empty:
         return Violation(room.id, "room_too_small", f"no disk of {LEAST_DISK:g} m radius fits into floor_polygon{_TOO_SMALL}")
     return None
@@ -131,11 +148,11 @@ def _overlap(plan: FloorPlan, a: int, b: int, polygons: np.ndarray) -> str:
     area = polygons[a].intersection(polygons[b]).area
     small, large = sorted((polygons[a].area, polygons[b].area))
     inner, outer = (a, b) if polygons[a].area <= polygons[b].area else (b, a)
-    advice = "; move the wall between them"
+    advice = "; move the wall between them (plan.repair=true does, where the overlap is a strip of up to 0.1 m)"
     if area > 0.99 * large:
         advice = "; a plan has one storey: give each its own plan"
     elif area > 0.99 * small:
-        advice = f"; cut {plan.rooms[inner].id} out of the floor_polygon of {plan.rooms[outer].id}, which may need two rooms"
+        advice = f"; cut {plan.rooms[inner].id} out of {plan.rooms[outer].id}, as one of its holes (plan.repair=true does)"
     return f"overlaps {plan.rooms[b].id} by {area:.3g} m^2{advice}"
 
 
@@ -151,7 +168,7 @@ def _cramped(plan: FloorPlan) -> list[Violation]:
     return violations
 
 
-def _squeezed(plan: FloorPlan, portal: Portal) -> Violation | None:
+def squeezed(plan: FloorPlan, portal: Portal) -> Violation | None:
     """An opening that reaches into a ceiling or into the wall of a corner, on either side."""
     listing = portal.wall.room
     room = plan.rooms[listing]
@@ -159,15 +176,17 @@ def _squeezed(plan: FloorPlan, portal: Portal) -> Violation | None:
     for side in (listing,) if portal.behind is None else (listing, portal.behind.room):
         other = plan.rooms[side]
         if portal.head > other.ceiling_height + 1e-9:
-            message = f"{name} reaches {portal.head:g} m high; the ceiling of {other.id} is at {other.ceiling_height:g} m"
+            message = f"{name} reaches {portal.head:g} m high; the ceiling of {other.id} is at {other.ceiling_height:g} m{MENDS}"
             return Violation(room.id, "opening_off_wall", message)
         floor = interiors(plan)[side]
         # The edge of a floor may be off by SHARED where walls are not quite parallel, so look one to two SHARED beyond.
-        face = portal.wall.thickness if side == listing else -portal.wall.thickness - portal.gap
+        behind = portal.wall.thickness if portal.behind is None else portal.behind.thickness
+        face = portal.wall.thickness if side == listing else -behind - portal.gap
         away = 1.0 if side == listing else -1.0
         before = _strip(portal, face + away * SHARED, face + away * 2 * SHARED)
         if floor is not None and before.difference(floor).area > 1e-6:
-            message = f"{name} reaches into a corner of {other.id}; {_free_stretch(portal, floor, face + 1.5 * away * SHARED)}"
+            free = _free_stretch(portal, floor, face + 1.5 * away * SHARED)
+            message = f"{name} reaches into a corner of {other.id}; {free}{MENDS}"
             return Violation(room.id, "opening_off_wall", message)
     return None
 
@@ -192,18 +211,19 @@ def _blocked(plan: FloorPlan, portals: tuple[Portal, ...]) -> list[Violation]:
     tree = shapely.STRtree(room_polygons(plan))
     violations = []
     for portal in portals:
-        if portal.is_way:
+        if portal.is_open:
             continue
-        room = plan.rooms[portal.wall.room]
-        view = _strip(portal, -OUTLOOK, -SHARED).buffer(-SHARED / 4, join_style="mitre")
-        blocking = sorted(plan.rooms[k].id for k in tree.query(view, predicate="intersects"))
+        room, outlook = plan.rooms[portal.wall.room], OUTLOOK.get(portal.kind, DOORSTEP)
+        view = _strip(portal, -outlook, -SHARED).buffer(-SHARED / 4, join_style="mitre")
+        blocking = sorted(tree.query(view, predicate="intersects").tolist(), key=lambda k: plan.rooms[k].id)
         if blocking:
-            message = f"{describe(portal.opening, portal.index)} has {', '.join(blocking)} less than {OUTLOOK:g} m before it; "
-            if portal.kind == "window":
-                violations.append(Violation(room.id, "window_interior", message + "windows look outside"))
-            else:
-                advice = "rooms that a door joins share one line, the middle of the wall: close the gap between their polygons"
-                violations.append(Violation(room.id, "door_exterior", message + advice))
+            names = ", ".join(plan.rooms[k].id for k in blocking)
+            message = f"{describe(portal.opening, portal.index)} has {names} less than {outlook:g} m before it; "
+            gap = room_polygon(room).distance(room_polygon(plan.rooms[blocking[0]]))
+            advice = "rooms that an opening joins share one line, the middle of the wall"
+            mends = f" (plan.repair=true closes the gap of {gap:.3g} m between {room.id} and {plan.rooms[blocking[0]].id})"
+            rule = "window_interior" if portal.kind == "window" else "door_exterior"
+            violations.append(Violation(room.id, rule, message + advice + mends))
     return violations
 
 
@@ -217,26 +237,13 @@ def _strip(portal: Portal, first: float, second: float) -> shapely.Polygon:
 
 
 def _unreachable(plan: FloorPlan, portals: tuple[Portal, ...], doubtful: list[Violation]) -> list[Violation]:
-    ways: list[list[int]] = [[] for _ in plan.rooms]
+    """Rooms of parts that have no door to the outside, less the largest part."""
     joined = [portal.rooms for portal in portals if portal.is_way]
-    for a, b in (*joined, *_perhaps(plan, doubtful)):
-        ways[a].append(b)
-        ways[b].append(a)
-    component = [-1] * len(plan.rooms)
-    for seed in range(len(plan.rooms)):
-        queue = [seed] if component[seed] < 0 else []
-        while queue:
-            room = queue.pop()
-            if component[room] < 0:
-                component[room] = seed
-                queue.extend(ways[room])
-    sizes = np.bincount(component, minlength=len(plan.rooms))
-    main = int(np.argmax(sizes))
-    return [
-        Violation(room.id, "unreachable", f"no doors or passages lead to it from {plan.rooms[main].id}{_ADVICE}")
-        for room, part in zip(plan.rooms, component)
-        if part != main
-    ]
+    main, *others = joined_rooms(len(plan.rooms), [*joined, *_perhaps(plan, doubtful)])
+    outside = {portal.wall.room for portal in portals if portal.is_entrance}
+    cut_off = sorted(room for part in others if not outside & set(part) for room in part)
+    message = f"no doors or passages lead to it from {plan.rooms[main[0]].id}{_ADVICE}"
+    return [Violation(plan.rooms[room].id, "unreachable", message) for room in cut_off]
 
 
 def _perhaps(plan: FloorPlan, faults: list[Violation]) -> list[tuple[int, int]]:

@@ -30,7 +30,7 @@ class WallOpening:
     Furniture sees it on the walls of a `Site`, the offline world's textures on the chart of a wall.
     """
 
-    kind: str  # door | window | passage
+    kind: str  # door | window | passage | hatch
     low: float
     high: float
     sill: float
@@ -80,8 +80,8 @@ def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str
       openings: (kind, ends [2, 2] near the wall's face, sill, head) of each.
     """
     polygon = shapely.orient_polygons(polygon)
-    ring = np.asarray(polygon.exterior.coords, np.float64)
-    starts, edges = ring[:-1], np.diff(ring, axis=0)
+    rings = [np.asarray(ring.coords, np.float64) for ring in (polygon.exterior, *polygon.interiors)]
+    starts, edges = np.concatenate([ring[:-1] for ring in rings]), np.concatenate([np.diff(ring, axis=0) for ring in rings])
     lengths = np.linalg.norm(edges, axis=1)
     directions = edges / lengths[:, None]
     normals = np.stack([-directions[:, 1], directions[:, 0]], -1)
@@ -91,7 +91,7 @@ def make_site(polygon: shapely.Polygon, ceiling: float, openings: list[tuple[str
         whole = wall_opening(kind, ends, sill, head, start=starts[k], direction=directions[k])
         low, high = max(whole.low, 0.0), min(whole.high, float(lengths[k]))
         placed.append((k, dataclasses.replace(whole, low=low, high=high)))
-        if kind == "window":
+        if kind in ("window", "hatch"):
             continue
         a, b = starts[k] + (low - DOOR_SIDE) * directions[k], starts[k] + (high + DOOR_SIDE) * directions[k]
         reach = DOOR_DEPTH * normals[k]

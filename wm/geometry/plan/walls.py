@@ -12,7 +12,7 @@ import functools
 import numpy as np
 import shapely
 
-from wm.geometry.plan.records import FloorPlan
+from wm.geometry.plan.records import FloorPlan, Room
 
 SHARED = 0.01  # metres within which walls are one: the paper's tolerance
 _BATCH = 1024  # walls per query of the tree
@@ -29,6 +29,7 @@ class Behind:
     high: float
     gap_low: float  # signed distance of the other wall outside this one at `low`, within +-SHARED
     gap_high: float  # and at `high`
+    thickness: float  # metres from the other room's edge to its inner face
 
     @property
     def slope(self) -> float:
@@ -51,6 +52,7 @@ class Wall:
     length: float
     thickness: float  # metres from the polygon's edge to the inner face
     behind: tuple[Behind, ...]  # by increasing `low`; none: an exterior wall
+    ring: int = 0  # of the room's outline (0) or of the hole (1, 2 ...) that the wall is part of
 
 
 def distinct(points: np.ndarray) -> np.ndarray:
@@ -77,8 +79,13 @@ def straight_ring(polygon: np.ndarray) -> np.ndarray:
 
 
 def room_polygons(plan: FloorPlan) -> np.ndarray:
-    """[rooms] shapely polygons, for its vectorised functions."""
-    return np.array([shapely.Polygon(room.polygon) for room in plan.rooms], dtype=object)
+    """[rooms] shapely polygons with their holes, for its vectorised functions."""
+    return np.array([room_polygon(room) for room in plan.rooms], dtype=object)
+
+
+def room_polygon(room: Room) -> shapely.Polygon:
+    """A room from above up to the lines of its walls; columns are part of it."""
+    return shapely.Polygon(room.polygon, room.holes)
 
 
 @functools.lru_cache(maxsize=4)
@@ -87,14 +94,17 @@ def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
 
     They are computed once per plan: plans are read-only and compared by identity.
     """
-    rings = [straight_ring(room.polygon) for room in plan.rooms]
-    room = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
+    owned = [(k, number, _ring(room, ring)) for k, room in enumerate(plan.rooms) for number, ring in enumerate(_rings(room))]
+    rings = [ring for _, _, ring in owned]
+    sizes = [len(ring) for ring in rings]
+    room, number = np.repeat([k for k, _, _ in owned], sizes), np.repeat([number for _, number, _ in owned], sizes)
     start = np.concatenate(rings)
     span = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings]) - start
     length = np.linalg.norm(span, axis=1)
     direction = span / length[:, None]
-    behind = _shared_stretches(room, start, direction, length)
-    walls: list[list[Wall]] = [[] for _ in rings]
+    said = _said(plan, room, start, direction, length)
+    behind = _shared_stretches(room, start, direction, length, said, plan.wall_thickness)
+    walls: list[list[Wall]] = [[] for _ in plan.rooms]
     for k in range(len(room)):
         walls[room[k]].append(
             Wall(
@@ -103,15 +113,57 @@ def plan_walls(plan: FloorPlan) -> tuple[tuple[Wall, ...], ...]:
                 direction=direction[k],
                 normal=np.array([-direction[k, 1], direction[k, 0]]),
                 length=float(length[k]),
-                thickness=plan.wall_thickness / 2 if behind[k] else plan.wall_thickness,
-                behind=tuple(sorted(behind[k], key=lambda stretch: (stretch.low, stretch.room))),
+                thickness=float(behind.thickness[k]),
+                behind=tuple(sorted(behind.stretches[k], key=lambda stretch: (stretch.low, stretch.room))),
+                ring=int(number[k]),
             )
         )
     return tuple(tuple(of_room) for of_room in walls)
 
 
-def _shared_stretches(room, start, direction, length) -> list[list[Behind]]:
-    """For each wall, the stretches along which a wall of another room runs against it."""
+def _rings(room: Room) -> tuple[np.ndarray, ...]:
+    return (room.polygon, *room.holes)
+
+
+def _ring(room: Room, ring: np.ndarray) -> np.ndarray:
+    """The corners of one ring, and the points at which a wall of another thickness begins."""
+    corners = straight_ring(ring)
+    if not room.walls:
+        return corners
+    after = np.roll(corners, -1, axis=0)
+    points = []
+    for start, end in zip(corners, after):
+        span = end - start
+        length = float(np.linalg.norm(span))
+        ends = np.concatenate([wall.segment for wall in room.walls])
+        along, off = (ends - start) @ span / length, np.abs(_cross(ends - start, span[None] / length))
+        inside = (off <= SHARED) & (along > SHARED) & (along < length - SHARED)
+        points += [start, *(start + s * span / length for s in sorted(set(along[inside].round(9).tolist())))]
+    return np.array(points)
+
+
+def _said(plan: FloorPlan, room, start, direction, length) -> np.ndarray:
+    """[walls] metres of thickness that a room says of a wall; NaN where it says nothing."""
+    said = np.full(len(room), np.nan)
+    middle = start + direction * length[:, None] / 2
+    for k, index in enumerate(room.tolist()):
+        for wall in plan.rooms[index].walls:
+            if shapely.LineString(wall.segment).distance(shapely.Point(middle[k])) <= SHARED:
+                said[k] = wall.thickness
+    return said
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Shared:
+    stretches: list[list[Behind]]
+    thickness: np.ndarray  # [walls] metres, on the room's own side
+
+
+def _shared_stretches(room, start, direction, length, said, usual: float) -> _Shared:
+    """For each wall, the stretches along which a wall of another room runs against it, and how thick it is.
+
+    A shared wall is as thick as either room says, the thicker of the two; half of it is on either side.
+    """
     end = start + direction * length[:, None]
     lines = np.asarray(shapely.linestrings(np.stack([start, end], axis=1)))
     i, j = _facing(room, direction, lines)
@@ -125,10 +177,17 @@ def _shared_stretches(room, start, direction, length) -> list[list[Behind]]:
     low_gap, high_gap = near_gap + slope * (low - near), near_gap + slope * (high - near)
     tolerance = SHARED + 1e-9
     shared = (high - low > SHARED) & (np.abs(low_gap) <= tolerance) & (np.abs(high_gap) <= tolerance)
+    pairs = np.flatnonzero(shared)
+    whole = said.copy()
+    np.fmax.at(whole, i[pairs], said[j[pairs]])
+    whole = np.where(np.isnan(whole), usual, whole)
+    inner = np.isin(np.arange(len(room)), i[pairs])
+    thickness = np.where(inner, whole / 2, whole)
     behind: list[list[Behind]] = [[] for _ in room]
-    for k in np.flatnonzero(shared):
-        behind[i[k]].append(Behind(int(room[j[k]]), float(low[k]), float(high[k]), float(low_gap[k]), float(high_gap[k])))
-    return behind
+    for k in pairs:
+        gaps = float(low_gap[k]), float(high_gap[k])
+        behind[i[k]].append(Behind(int(room[j[k]]), float(low[k]), float(high[k]), *gaps, float(thickness[j[k]])))
+    return _Shared(behind, thickness)
 
 
 def _facing(room: np.ndarray, direction: np.ndarray, lines: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -5,9 +5,12 @@ is larger has coarser pixels. Texels that no view saw take the colour of the nea
 chart has a rim of its own border colours, so that filtering in a viewer finds neither black nor the neighbouring chart.
 """
 
+import dataclasses
+from collections.abc import Sequence
+
 import numpy as np
 
-from wm.geometry.mesh.glb import GlbNode
+from wm.geometry.mesh.glb_nodes import GlbNode
 from wm.geometry.texture.atlas import chart_image
 from wm.geometry.texture.packing import filled_image, shelves
 from wm.types import Atlas, Mesh
@@ -17,13 +20,14 @@ LARGEST_SIDE = 4096  # pixels of an image: what phones show; desktop viewers hav
 UNPAINTED = 0.5  # sRGB grey of charts that no view saw, and of the outer skin
 
 
-def atlas_nodes(atlas: Atlas, mesh: Mesh) -> list[GlbNode]:
-    """Textured nodes of every room, "room <index>" and, where its charts do not fit one image of LARGEST_SIDE, "room <index> part
-    <k>"; and one of plain grey for faces without a chart, "exterior".
+def atlas_nodes(atlas: Atlas, mesh: Mesh, rooms: Sequence[str] = ()) -> list[GlbNode]:
+    """Textured nodes of every room, with "<room> part <k>" where its charts do not fit one image of LARGEST_SIDE; and one of
+    plain grey for faces without a chart, "exterior", in the file's second scene: seen from outside it would hide all others.
 
     Args:
       atlas: the texture.
       mesh: the structure: the mesh the atlas was built from, or the faces that one began with.
+      rooms: the ids of the plan's rooms, which name the nodes; "room <index>" without them.
 
     Raises:
       ValueError: the mesh has more faces than the atlas knows.
@@ -34,13 +38,16 @@ def atlas_nodes(atlas: Atlas, mesh: Mesh) -> list[GlbNode]:
     nodes = []
     for room in np.unique(atlas.chart_room):
         for part, charts in enumerate(_sheets(atlas, np.flatnonzero(atlas.chart_room == room))):
-            name = f"room {room} part {part + 1}" if part else f"room {room}"
-            nodes.append(_sheet_node(name, atlas, mesh, face_chart, charts))
+            told = rooms[room] if rooms else f"room {room}"
+            name = f"{told} part {part + 1}" if part else told
+            node = _sheet_node(name, atlas, mesh, face_chart, charts)
+            nodes.append(dataclasses.replace(node, extras={"room": rooms[room], "label": "room"}) if rooms else node)
     bare = mesh.faces[face_chart < 0]
     if len(bare):
         used, index = np.unique(bare, return_inverse=True)
         grey = np.full(3, UNPAINTED)
-        nodes.append(GlbNode(name="exterior", vertices=mesh.vertices[used], faces=index.reshape(-1, 3), base_color=grey))
+        outer = index.reshape(-1, 3)
+        nodes.append(GlbNode(name="exterior", vertices=mesh.vertices[used], faces=outer, base_color=grey, apart=True))
     return nodes
 
 

@@ -42,7 +42,7 @@ from wm.synth.backends import Condition, HeardTheme, ImageRequest, ImageResult, 
 from wm.synth.registry import DRAWN
 from wm.types import OUTSIDE, Camera, SceneObject, View
 
-VERSION = "2"
+VERSION = "3"
 PROVIDES = (DRAWN,)
 SURE = 0.85
 """Value of `known` above which the tone of a pixel is used. Below it, the pixel of the condition is partly grey depth."""

@@ -1,4 +1,4 @@
-"""Doors, passages and windows for a massing. Every room can be reached.
+"""Doors, passages and windows for a massing. Every room can be reached, and the house has one door to the outside.
 
 Doors lie near a corner, so that the rest of the wall is free for furniture; passages lie in the middle of their wall. Lengths are
 whole centimetres along the line of a wall.
@@ -58,7 +58,7 @@ def draw_openings(
     building: Building,
     rng: np.random.Generator,
 ) -> list[Hole]:
-    """Openings for all rooms: first doors and passages, then windows.
+    """Openings for all rooms: first doors and passages, then windows, at last the entrance.
 
     Args:
       polygons: [k, 2] polygon of each room, cm, counter-clockwise, axis-aligned.
@@ -81,7 +81,44 @@ def draw_openings(
     outer = [stretch for stretch in stretches if stretch.behind is None]
     for room in range(len(spaces)):
         holes += _windows([s for s in outer if s.side.room == room], shapes, spaces[room], ceilings[room], building, rng)
+    return _with_entrance(holes, [s for s in outer if _open_air(s, shapes)], spaces, ceilings, building)
+
+
+def _with_entrance(
+    holes: list[Hole], outer: Sequence[Stretch], spaces: Sequence[Space], ceilings: Sequence[int], building: Building
+) -> list[Hole]:
+    """The openings and an entrance: in a hall where one has an outer wall, else in the first room that has.
+
+    It stands beside the windows, or else in the place of one. Nothing is drawn at random here, so that the house stays as it was.
+    """
+    width = round(100 * building.door[0])
+    order = sorted(range(len(spaces)), key=lambda k: (spaces[k].kind.zone != CIRCULATION, spaces[k].kind.name == "corridor", k))
+    for room in order:
+        height = min(round(100 * building.door[1]), ceilings[room] - 20)
+        walls = sorted((s for s in outer if s.side.room == room), key=lambda s: (s.low - s.high, s.side.start))
+        for stretch in walls:
+            for low in range(stretch.low + JAMB, stretch.high - JAMB - width + 1, 5):
+                door = Hole("door", stretch.side, None, low, low + width, height, 0)
+                if not any(_conflicts(door, hole) for hole in holes):
+                    return [*holes, door]
+        door = _in_place_of_a_window(holes, room, width, height, spaces[room].kind.zone == CIRCULATION)
+        if door is not None:
+            return [hole for hole in holes if not _conflicts(door, hole)] + [door]
     return holes
+
+
+def _in_place_of_a_window(holes: Sequence[Hole], room: int, width: int, height: int, last: bool) -> Hole | None:
+    """An entrance where a window of the room is wide enough for it; its last window is taken only where `last` says so."""
+    windows = [hole for hole in holes if hole.side.room == room and hole.kind == "window" and hole.high - hole.low >= width]
+    if not windows or (not last and sum(hole.side.room == room and hole.kind == "window" for hole in holes) < 2):
+        return None
+    low = (windows[0].low + windows[0].high - width) // 2
+    return Hole("door", windows[0].side, None, low, low + width, height, 0)
+
+
+def _conflicts(a: Hole, b: Hole) -> bool:
+    """Whether two openings lie in one wall with less than APART between them."""
+    return a.side.axis == b.side.axis and a.side.at == b.side.at and a.low < b.high + APART and b.low < a.high + APART
 
 
 def _rooms(stretch: Stretch) -> frozenset[int]:

@@ -9,6 +9,7 @@
     materials/  procedural materials, functions of position
     light/      daylight, sun and lamps, baked
     noise       the noise and pattern primitives that materials are made of
+    _noise_sum  octaves of gradient noise, compiled
     pyramid     textures at several resolutions
     tone        the tone curve
 """

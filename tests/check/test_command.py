@@ -1,0 +1,51 @@
+"""python -m wm.check: one table of what was exported, and an exit code that says whether all of it holds."""
+
+import json
+
+import pytest
+
+from tests.export.conftest import finished  # noqa: F401
+from wm.check import __main__ as command
+from wm.export.exporting import export
+
+
+@pytest.fixture
+def exported(finished, tmp_path):  # noqa: F811
+    export(finished, ["navmesh", "scaffold"], tmp_path)
+    return [str(finished.folder), f"folder={tmp_path}"]
+
+
+def test_all_that_was_exported_is_checked(exported, capsys):
+    assert command.main(exported) == 0
+    said = capsys.readouterr().out
+    assert "doors and passages that it leads through" in said and "objects against the run" in said
+    assert said.splitlines()[-1].startswith("all 11 checks passed")
+
+
+def test_one_check_that_fails_is_told_by_the_exit_code(exported, tmp_path, capsys):
+    told = json.loads((tmp_path / "navmesh.json").read_text())
+    told["vertices"][0][2] = 1.0
+    (tmp_path / "navmesh.json").write_text(json.dumps(told))
+    (tmp_path / "scaffold.glb").write_bytes(b"")
+    assert command.main(exported) == 1
+    said = capsys.readouterr().out
+    assert said.count("FAILED") == 3 and "is no GLB file" in said and "3 of 7 checks failed" in said
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([], "give the folder"),
+        (["of=[usd]"], "usd was not exported there; there are navmesh, scaffold"),
+        (["to=x"], "no key 'to'"),
+    ],
+)
+def test_a_wrong_word_is_one_line(exported, capsys, words, message):
+    assert command.main([*exported, *words] if words else []) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert message in line
+
+
+def test_a_folder_without_exports_says_what_to_do(finished, tmp_path, capsys):  # noqa: F811
+    assert command.main([str(finished.folder), f"folder={tmp_path}"]) == 2
+    assert "nothing was exported there" in capsys.readouterr().err
