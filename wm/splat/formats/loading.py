@@ -16,7 +16,7 @@ _GZIP, _SPZ_4, _ZIP, _GLB = b"\x1f\x8b", b"NGSP", b"PK\x03\x04", b"glTF"
 def load_splats(path: str | Path) -> Gaussians:
     """Read gaussians (NumPy float32 leaves) from a file of any format that is common, in the axes of the file.
 
-    PLY files of any layout that `load_ply` knows, PlayCanvas's compressed PLY, antimatter15's `.splat`, SPZ (versions 1 to 4) and
+    PLY files of any layout that `load_ply` knows, PlayCanvas's compressed PLY, antimatter15's `.splat`, SPZ (versions 2 to 4) and
     SOG (both with the extra `splats`), and GLB with KHR_gaussian_splatting, where nodes put the gaussians in glTF's y-up axes.
     Formats of 8 bits that have an opacity of 0 or 1 give one that is finite as a logit.
 
