@@ -36,7 +36,7 @@ def atlas_nodes(atlas: Atlas, mesh: Mesh, rooms: Sequence[str] = ()) -> list[Glb
         raise ValueError(f"the mesh has {len(mesh.faces)} faces; the atlas was built for {len(atlas.face_chart)}")
     face_chart = atlas.face_chart[: len(mesh.faces)]
     nodes = []
-    for room in np.unique(atlas.chart_room):
+    for room in map(int, np.unique(atlas.chart_room)):
         for part, charts in enumerate(_sheets(atlas, np.flatnonzero(atlas.chart_room == room))):
             told = rooms[room] if rooms else f"room {room}"
             name = f"{told} part {part + 1}" if part else told
