@@ -22,7 +22,7 @@ export async function fetched(url, progress = () => {}) {
   return bytes;
 }
 
-// Gaussians as they are, in 32 bits: Spark's default packing costs 8 dB on flat ones.
+// Gaussians in 32 bits and not as Spark packs them by default, so that pictures agree with wm's (experiments/viewer).
 export async function splatLayer(url, progress) {
   const fileBytes = await fetched(url, progress);
   const splats = new SplatMesh({ fileBytes, fileType: SplatFileType.PLY, extSplats: true });
