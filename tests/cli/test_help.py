@@ -23,7 +23,7 @@ def test_help_names_every_key_with_its_meaning_its_default_and_its_range():
     said = flat(answer(["--help"], CONF))
     keys = [key for key in leaves(load_config(["+scene=gothic"])) if not key.endswith(".backend")]
     assert [key for key in keys if f" {key}{'' if key.startswith('scene.') else '='}" not in said] == []
-    assert "fit.steps=120 Optimiser steps per room. [integer, 0 to 1e+07]" in said
+    assert "fit.steps=100 Optimiser steps per room. [integer, 0 to 1e+07]" in said
     assert "below 1. [0 to below 1]" in said
     assert "cameras.eye_height=1.6 Height of a standing viewer's eyes above the floor. [0.2 to 5 m]" in said
     assert "condition.objects=textured How the scaffold's objects are shown. [textured | boxes | none]" in said
@@ -35,8 +35,8 @@ def test_help_names_every_key_with_its_meaning_its_default_and_its_range():
 @pytest.mark.parametrize(
     ("topic", "said", "not_said"),
     [
-        ("fit", "fit.steps=120", "raster.near"),
-        ("fit.steps", "fit.steps=120 Optimiser steps per room.", "fit.batch"),
+        ("fit", "fit.steps=100", "raster.near"),
+        ("fit.steps", "fit.steps=100 Optimiser steps per room.", "fit.batch"),
         ("seed", "seed=0 Seed of everything random.", "variant"),
         ("--seed", "seed=0 Seed of everything random.", "variant"),
         ("variant", 'depth_only "depth only": the condition shows the empty structure', "fit.steps"),
