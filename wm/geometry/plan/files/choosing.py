@@ -6,7 +6,7 @@ from typing import Any
 
 from shapely.errors import ShapelyError
 
-from wm.geometry.plan.files.drawing import Drawing, layout, refused
+from wm.geometry.plan.files.drawing import DrawnPlan, layout, refused
 from wm.geometry.plan.files.dxf import read_dxf
 from wm.geometry.plan.files.ifc import read_ifc
 from wm.geometry.plan.files.infinigen import is_infinigen, read_infinigen
@@ -50,7 +50,7 @@ def drawn_document(document: Any, source: str, storey: str | None = None) -> tup
         if not fits(document):
             continue
         try:
-            drawing: Drawing = read(document)
+            drawing: DrawnPlan = read(document)
         except (KeyError, TypeError, ValueError, AttributeError, ShapelyError) as error:
             what = f"key {error} is missing" if isinstance(error, KeyError) else str(error)
             raise refused(source, f"cannot be read as {name} JSON: {what}") from None

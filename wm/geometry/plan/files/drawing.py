@@ -29,7 +29,7 @@ class Outline:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Hole:
+class DrawnOpening:
     """A door, passage or window."""
 
     kind: str
@@ -41,11 +41,11 @@ class Hole:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Drawing:
+class DrawnPlan:
     """All that was read of a file, and what was left out, a sentence each."""
 
     rooms: tuple[Outline, ...]
-    holes: tuple[Hole, ...]
+    holes: tuple[DrawnOpening, ...]
     notes: tuple[str, ...] = ()
 
 
@@ -54,7 +54,7 @@ def refused(source: str, message: str) -> PlanError:
     return PlanError((Violation(None, "file", message),), source)
 
 
-def layout(drawing: Drawing, source: str, storey: str | None = None) -> tuple[dict[str, Any], tuple[str, ...]]:
+def layout(drawing: DrawnPlan, source: str, storey: str | None = None) -> tuple[dict[str, Any], tuple[str, ...]]:
     """The layout of one storey (the first that holds rooms, where none is chosen), and what is to be said of it.
 
     Raises:
@@ -111,7 +111,7 @@ def _room(outline: Outline, ids: list[str]) -> dict[str, Any]:
     return room
 
 
-def _placed(hole: Hole, outlines: list[Outline]) -> tuple[int, dict[str, Any]] | None:
+def _placed(hole: DrawnOpening, outlines: list[Outline]) -> tuple[int, dict[str, Any]] | None:
     """The number of the room and the opening on its wall; None where no wall runs along it."""
     best: tuple[float, int, np.ndarray] | None = None
     for k, outline in enumerate(outlines):

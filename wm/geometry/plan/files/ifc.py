@@ -1,37 +1,38 @@
 """Buildings of IFC: spaces are rooms, doors and windows lie where their openings do, by storey and in metres (extra `ifc`)."""
 
+import importlib
 from typing import Any
 
 import numpy as np
 import shapely
 
-from wm.geometry.plan.files.drawing import Drawing, Hole, Outline, refused
+from wm.geometry.plan.files.drawing import DrawnOpening, DrawnPlan, Outline, refused
 
 
-def read_ifc(path: str) -> Drawing:
+def read_ifc(path: str) -> DrawnPlan:
     """The spaces, doors and windows of all storeys, lowest first.
 
     Raises:
       PlanError: ifcopenshell is missing, or the file cannot be read.
     """
     try:
-        import ifcopenshell
-        import ifcopenshell.geom
-        import ifcopenshell.util.element as element
-        import ifcopenshell.util.placement as placement
-        import ifcopenshell.util.unit as unit
+        ifcopenshell: Any = importlib.import_module("ifcopenshell")
+        geom: Any = importlib.import_module("ifcopenshell.geom")
+        element, placement, unit = (
+            importlib.import_module(f"ifcopenshell.util.{name}") for name in ("element", "placement", "unit")
+        )
     except ImportError:
         raise refused(path, "IFC is read by ifcopenshell: pip install 'wm[ifc]'") from None
     try:
         model: Any = ifcopenshell.open(path)
     except Exception as error:
         raise refused(path, f"is not an IFC file that can be read: {error}") from None
-    settings = ifcopenshell.geom.settings()
+    settings = geom.settings()
     settings.set("use-world-coords", True)
 
     def mesh(product: Any) -> tuple[np.ndarray, np.ndarray] | None:
         try:
-            shape: Any = ifcopenshell.geom.create_shape(settings, product)
+            shape: Any = geom.create_shape(settings, product)
         except RuntimeError:
             return None
         return np.reshape(shape.geometry.verts, (-1, 3)), np.reshape(shape.geometry.faces, (-1, 3))
@@ -65,7 +66,7 @@ def read_ifc(path: str) -> Drawing:
         base = bases.get(storey, 0.0) * scale
         low, high = float(found[0][:, 2].min()), float(found[0][:, 2].max())
         holes.append(
-            Hole(
+            DrawnOpening(
                 kind,
                 product.Name or f"#{product.id()}",
                 found[0][:, :2],
@@ -74,12 +75,12 @@ def read_ifc(path: str) -> Drawing:
                 storey,
             )
         )
-    return Drawing(tuple(outline for _, outline in sorted(rooms, key=lambda row: row[0])), tuple(holes), tuple(notes))
+    return DrawnPlan(tuple(outline for _, outline in sorted(rooms, key=lambda row: row[0])), tuple(holes), tuple(notes))
 
 
 def _footprint(points: np.ndarray, faces: np.ndarray) -> shapely.Polygon | None:
     """The union of the faces from above; None where that is not one polygon."""
-    triangles = shapely.polygons(points[faces][:, :, :2])
-    area = shapely.union_all(triangles[shapely.area(triangles) > 1e-9], grid_size=1e-6)
+    triangles = np.asarray(shapely.polygons(points[faces][:, :, :2]))
+    area: Any = shapely.union_all(triangles[shapely.area(triangles) > 1e-9], grid_size=1e-6)
     area = shapely.simplify(area, 1e-5)
     return area if isinstance(area, shapely.Polygon) and not area.is_empty else None

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from wm.geometry.plan.files.drawing import Drawing, Hole, Outline
+from wm.geometry.plan.files.drawing import DrawnOpening, DrawnPlan, Outline
 
 SHAPES = {"box": shapely.box, "Polygon": shapely.Polygon, "LineString": shapely.LineString}
 
@@ -20,7 +20,7 @@ def is_infinigen(document: Any) -> bool:
     return isinstance(rooms, dict) and all(isinstance(room, dict) and "operation" in room for room in rooms.values())
 
 
-def read_infinigen(document: Any) -> Drawing:
+def read_infinigen(document: Any) -> DrawnPlan:
     """The rooms and openings; KeyError, TypeError or ValueError where the document is not of this format."""
     rooms = tuple(
         Outline(name.split("/")[0].rsplit("_", 1)[0], shapely.Polygon(_shape(name, value)), _level(name))
@@ -31,8 +31,8 @@ def read_infinigen(document: Any) -> Drawing:
         for name, value in document.get(key, {}).items():
             shape = _shape(name, value)
             near = min(rooms, key=lambda room: (room.area.distance(shape), room.storey != _level(name)))
-            holes.append(Hole(kind, name, np.asarray(shapely.get_coordinates(shape)), storey=near.storey))
-    return Drawing(rooms, tuple(holes))
+            holes.append(DrawnOpening(kind, name, np.asarray(shapely.get_coordinates(shape)), storey=near.storey))
+    return DrawnPlan(rooms, tuple(holes))
 
 
 def _level(name: str) -> str:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from wm.geometry.plan.files.drawing import Drawing, Hole, Outline
+from wm.geometry.plan.files.drawing import DrawnOpening, DrawnPlan, Outline
 
 ROOMS = ("living", "kitchen", "bedroom", "bathroom", "balcony", "storage", "stair", "veranda", "parking")
 HOLES: Mapping[str, str] = {"door": "door", "front_door": "door", "window": "window"}
@@ -23,7 +23,7 @@ def is_polygons(document: Any) -> bool:
     return isinstance(document, dict) and "rooms" not in document and any(key in document for key in ROOMS)
 
 
-def read_polygons(document: Any) -> Drawing:
+def read_polygons(document: Any) -> DrawnPlan:
     """The rooms and openings; KeyError, TypeError or ValueError where the document is not of this format."""
     scale = float(document.get("meters_per_unit", 1.0))
     if not 0 < scale < np.inf:
@@ -35,11 +35,11 @@ def read_polygons(document: Any) -> Drawing:
                 rooms.append(Outline(key, part))
     for key, kind in HOLES.items():
         for number, part in enumerate(_parts(document.get(key), scale)):
-            holes.append(Hole(kind, f"{key} {number}", np.asarray(shapely.get_coordinates(part))))
+            holes.append(DrawnOpening(kind, f"{key} {number}", np.asarray(shapely.get_coordinates(part))))
     if rooms and np.ptp(shapely.get_coordinates([room.area for room in rooms]), axis=0).max() > LARGEST:
         raise ValueError(f"it is larger than {LARGEST:g} m; say 'meters_per_unit': how many metres one of its units is")
     left = [key for key in document if key not in (*ROOMS, *HOLES, "meters_per_unit")]
-    return Drawing(tuple(rooms), tuple(holes), (f"left out: {', '.join(map(repr, left))}",) if left else ())
+    return DrawnPlan(tuple(rooms), tuple(holes), (f"left out: {', '.join(map(repr, left))}",) if left else ())
 
 
 def _parts(value: Any, scale: float) -> list[Any]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from wm.geometry.plan.files.drawing import Drawing, Hole, Outline
+from wm.geometry.plan.files.drawing import DrawnOpening, DrawnPlan, Outline
 
 
 def is_procthor(document: Any) -> bool:
@@ -18,7 +18,7 @@ def is_procthor(document: Any) -> bool:
     return isinstance(rooms, list) and bool(rooms) and isinstance(rooms[0], dict) and "floorPolygon" in rooms[0]
 
 
-def read_procthor(document: Any) -> Drawing:
+def read_procthor(document: Any) -> DrawnPlan:
     """The rooms and openings; KeyError, TypeError or ValueError where the document is not of this format."""
     walls = {
         wall["id"]: np.array([[p["x"], p["z"], p["y"]] for p in wall["polygon"]], float) for wall in document.get("walls", [])
@@ -42,26 +42,26 @@ def read_procthor(document: Any) -> Drawing:
     holes += _open_walls(document, walls)
     if document.get("objects"):
         notes.append(f"{len(document['objects'])} objects are left out: furniture is not read")
-    return Drawing(rooms, tuple(holes), tuple(notes))
+    return DrawnPlan(rooms, tuple(holes), tuple(notes))
 
 
-def _hole(kind: str, thing: dict[str, Any], wall: np.ndarray) -> Hole:
+def _hole(kind: str, thing: dict[str, Any], wall: np.ndarray) -> DrawnOpening:
     start = wall[0, :2]
     farthest = wall[np.argmax(np.linalg.norm(wall[:, :2] - start, axis=1)), :2]
     along = (farthest - start) / np.linalg.norm(farthest - start)
     offsets = [float(p["x"]) for p in thing["holePolygon"]]
     heights = [float(p["y"]) for p in thing["holePolygon"]]
     points = start + np.array([[min(offsets)], [max(offsets)]]) * along
-    return Hole(kind, thing["id"], points, max(heights) - min(heights), min(heights))
+    return DrawnOpening(kind, thing["id"], points, max(heights) - min(heights), min(heights))
 
 
-def _open_walls(document: dict[str, Any], walls: dict[str, np.ndarray]) -> list[Hole]:
+def _open_walls(document: dict[str, Any], walls: dict[str, np.ndarray]) -> list[DrawnOpening]:
     """A passage for each wall that is empty, once where both rooms list it."""
-    found: dict[tuple[float, ...], Hole] = {}
+    found: dict[tuple[float, ...], DrawnOpening] = {}
     for wall in document.get("walls", []):
         points = walls[wall["id"]]
         if wall.get("empty"):
             low, high = np.sort(np.array([points[:, :2].min(axis=0), points[:, :2].max(axis=0)]), axis=0)
             key = tuple(np.round([*low, *high], 3).tolist())
-            found.setdefault(key, Hole("passage", wall["id"], points[:, :2], float(np.ptp(points[:, 2])), 0.0))
+            found.setdefault(key, DrawnOpening("passage", wall["id"], points[:, :2], float(np.ptp(points[:, 2])), 0.0))
     return list(found.values())
