@@ -1,6 +1,6 @@
 """Polygons by kind of room as in ResPlan, each GeoJSON or WKT: {"bedroom": "MULTIPOLYGON (...)", "door": {...}, ...}.
 
-The kinds are those of m-agour/ResPlan, resplan_utils.py at commit 4c7bc78. Its own files are pickles, which run code when
+The kinds up to balcony are those of m-agour/ResPlan, resplan_utils.py at commit 4c7bc78. Its files are pickles, which run code as
 they are read and are therefore not; `{key: shapely.to_wkt(value)}` of a plan writes this one. `meters_per_unit` says how long a
 unit is.
 """
