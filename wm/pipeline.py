@@ -72,7 +72,9 @@ def run(config: RunConfig, folder: pathlib.Path, *, neighbours: Sequence[pathlib
     check_targets(config.export)
     if config.plan.file is not None:
         # raises before a folder is made
-        read_plan_file(config.plan.file, repair=config.plan.repair, unreachable=config.plan.unreachable)
+        read_plan_file(
+            config.plan.file, repair=config.plan.repair, unreachable=config.plan.unreachable, storey=config.plan.storey
+        )
     if config.evaluate.quality is not None:
         check_quality(config.evaluate.quality)
     meter = StageMeter(keep=functools.partial(_keep_timings, folder))

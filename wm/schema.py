@@ -41,6 +41,7 @@ class PlanConfig:
     """Where the floor plan comes from."""
 
     file: str | None = setting(None, "A plan of the user's own; None asks the language backend.")
+    storey: str | None = setting(None, "The storey of a file that holds several, its name or number; None for the lowest.")
     repair: bool = setting(
         False, "Mend a plan of the user's own: walls drawn as gaps, rooms that overlap, openings that do not fit their walls."
     )

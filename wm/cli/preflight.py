@@ -96,7 +96,9 @@ def _planned(composed: Any, *folder_keys: str) -> PlannedRun:
         config = freeze(task)
         if config.plan.file is not None:
             reading = importlib.import_module("wm.geometry.plan.loading").read_plan_file
-            reading(Path(config.plan.file), repair=config.plan.repair, unreachable=config.plan.unreachable)
+            reading(
+                Path(config.plan.file), repair=config.plan.repair, unreachable=config.plan.unreachable, storey=config.plan.storey
+            )
         if config.export:
             importlib.import_module("wm.export.targets").check_targets(config.export)
         folder = Path.cwd().joinpath(*(str(OmegaConf.select(composed, key)) for key in folder_keys))

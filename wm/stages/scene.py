@@ -83,8 +83,8 @@ def build_scene(run: RunContext) -> Scene:
 def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     config = run.config
     file = config.plan.file
-    mends = {"repair": config.plan.repair, "unreachable": config.plan.unreachable}
-    mended = ["repair"] * config.plan.repair
+    mends = {"repair": config.plan.repair, "unreachable": config.plan.unreachable, "storey": config.plan.storey}
+    mended = ["repair"] * config.plan.repair + ([] if config.plan.storey is None else ["storey", config.plan.storey])
     source = (
         [file_digest(_user_file(file)), *mended]
         if file
@@ -116,9 +116,9 @@ def _plan(run: RunContext) -> tuple[FloorPlan, str]:
     return stored_plan(run.folder.path / PLAN), key
 
 
-def _told(file: pathlib.Path, *, repair: bool, unreachable: str) -> tuple[FloorPlan, tuple[str, ...]]:
+def _told(file: pathlib.Path, *, repair: bool, unreachable: str, storey: str | None = None) -> tuple[FloorPlan, tuple[str, ...]]:
     """A user's plan, and what is not read of it, may not be meant or was changed in it, which is said too."""
-    reading = read_plan_file(file, repair=repair, unreachable=unreachable)
+    reading = read_plan_file(file, repair=repair, unreachable=unreachable, storey=storey)
     for note in reading.notes:
         console.say(f"{file}: {note}")
     return reading.plan, reading.notes

@@ -85,7 +85,12 @@ def furnished_context(config: RunConfig) -> SceneContext:
 
 def _plan(config: RunConfig) -> FloorPlan:
     if config.plan.file is not None:
-        return load_plan(pathlib.Path(config.plan.file), repair=config.plan.repair, unreachable=config.plan.unreachable)
+        return load_plan(
+            pathlib.Path(config.plan.file),
+            repair=config.plan.repair,
+            unreachable=config.plan.unreachable,
+            storey=config.plan.storey,
+        )
     language = make_backend("language", config.language)
     seed, iterations = seed_of(config, "plan"), config.plan.max_iterations
     return propose_plan(language, config.scene.theme, list(config.scene.rooms), seed=seed, max_iterations=iterations).plan

@@ -11,6 +11,7 @@
     fitting        openings moved or narrowed to where they fit
     adapting       what is carried in another form, and what may not be meant
     rules          how rooms fit together, every broken rule named
+    files          plans of IFC, DXF, ProcTHOR, Infinigen and polygons, as layouts
     loading        load_plan, parse_plan, plan_to_json
     walls          the straight walls and the rooms behind them
     portal         Portal: one opening where it lies in the building

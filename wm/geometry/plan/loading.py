@@ -17,6 +17,7 @@ from typing import Any
 
 from wm.geometry.plan.adapting import adapted, columns_for_holes, doubts
 from wm.geometry.plan.connected import connected_parts
+from wm.geometry.plan.files.choosing import drawn_document, drawn_file
 from wm.geometry.plan.fitting import fitted
 from wm.geometry.plan.layout_json import MAX_BYTES, Reader, decode, encode
 from wm.geometry.plan.records import FloorPlan, Opening, PlanError, PlanWarning, Room, Violation
@@ -38,13 +39,16 @@ class PlanReading:
     notes: tuple[str, ...]
 
 
-def load_plan(path: str | os.PathLike[str], *, repair: bool = False, unreachable: str = "warn") -> FloorPlan:
-    """The floor plan in a JSON file.
+def load_plan(
+    path: str | os.PathLike[str], *, repair: bool = False, unreachable: str = "warn", storey: str | None = None
+) -> FloorPlan:
+    """The floor plan in a file: a layout, or what `wm.geometry.plan.files` reads.
 
     Args:
       path: of the file.
       repair: whether walls drawn as gaps, overlapping rooms and openings that do not fit their walls are mended.
       unreachable: "warn" or "refuse", of rooms that no way leads to from the largest part of the plan or from outside.
+      storey: its name or its number from the lowest; None for the lowest with rooms. A layout has one storey.
 
     Raises:
       PlanError: the file cannot be read (rule "file"), or as `parse_plan`.
@@ -52,14 +56,25 @@ def load_plan(path: str | os.PathLike[str], *, repair: bool = False, unreachable
     Warns:
       PlanWarning: a key is not read, or walls were moved.
     """
-    reading = read_plan_file(path, repair=repair, unreachable=unreachable)
+    reading = read_plan_file(path, repair=repair, unreachable=unreachable, storey=storey)
     _warn(reading, os.fspath(path))
     return reading.plan
 
 
-def read_plan_file(path: str | os.PathLike[str], *, repair: bool = False, unreachable: str = "warn") -> PlanReading:
+def read_plan_file(
+    path: str | os.PathLike[str], *, repair: bool = False, unreachable: str = "warn", storey: str | None = None
+) -> PlanReading:
     """`load_plan`, with what it would warn of as notes."""
     source = os.fspath(path)
+    drawn = drawn_file(path, storey)
+    if drawn is None:
+        drawn = drawn_document(decode(_text(path, source), source), source, storey)
+    document, notes = drawn
+    reading = read_plan(document, source, Path(path).absolute().parent, repair=repair, unreachable=unreachable)
+    return dataclasses.replace(reading, notes=(*notes, *reading.notes))
+
+
+def _text(path: str | os.PathLike[str], source: str) -> str:
     try:
         if Path(path).exists() and not Path(path).is_file():
             raise OSError("it is not a file")  # a pipe would be waited for
@@ -67,13 +82,12 @@ def read_plan_file(path: str | os.PathLike[str], *, repair: bool = False, unreac
             data = file.read(MAX_BYTES + 1)
         if len(data) > MAX_BYTES:
             raise OSError(f"it is longer than {MAX_BYTES} bytes")
-        text = data.decode("utf-8-sig")
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise PlanError((Violation(None, "file", f"is not UTF-8 text (byte {error.start})"),), source) from None
     except (OSError, ValueError) as error:  # ValueError: a path with a null character
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         raise PlanError((Violation(None, "file", f"cannot be read: {reason}"),), source) from None
-    return read_plan(decode(text, source), source, Path(path).absolute().parent, repair=repair, unreachable=unreachable)
 
 
 def stored_plan(path: str | os.PathLike[str]) -> FloorPlan:
