@@ -13,14 +13,11 @@ import numpy as np
 from jaxtyping import Bool, Float, UInt8
 from PIL import Image
 
+from wm.geometry import opengl_pose
 from wm.types import Camera, SceneObject, Texture, View
 
 DEPTH_UNIT = 1e-3
 """Metres per step of a 16-bit depth PNG, nerfstudio's `depth_unit_scale_factor`."""
-
-# nerfstudio's cameras look along -z and have y up; ours look along +z and have y down.
-_OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
-
 
 OBJECT_AXES = (
     "right-handed, z up. T_world_object takes points of an object's frame (x to its right, y to its back, z up, origin at the "
@@ -141,9 +138,8 @@ def heldout_json(views: Sequence[View], rooms: Sequence[str], images: str) -> di
 
 def _pose(view: View, room: str) -> dict[str, Any]:
     camera = view.camera
-    T_world_cam = np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _OPENGL_FROM_OPENCV
     return {
-        "transform_matrix": np.round(T_world_cam, 9).tolist(),
+        "transform_matrix": opengl_pose(camera).round(9).tolist(),
         **_intrinsics(camera),
         "room": room,
         "kind": view.kind,

@@ -16,8 +16,8 @@ to see whether its figures tell the degradations apart. Nothing here says how go
 import dataclasses
 import pathlib
 
+import jax
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from tests.compare import writers
 from wm.compare.axes import UP, moved_camera, rotation_matrix, upright
@@ -28,6 +28,7 @@ from wm.finished import FinishedRun
 from wm.geometry import cast_rays
 from wm.geometry.rays.pinhole import unproject_depth
 from wm.splat import save_ply
+from wm.splat.formats.turning import turned
 from wm.splat.rasterizer.harmonics import SH_C0
 from wm.types import Gaussians
 
@@ -37,29 +38,13 @@ def thinned(gaussians: Gaussians, count: int, seed: int = 0) -> Gaussians:
     n = len(gaussians.means)
     if n <= count:
         return gaussians
-    kept = np.sort(np.random.default_rng(seed).choice(n, count, replace=False))
-    fewer = Gaussians(**{f.name: np.asarray(getattr(gaussians, f.name))[kept] for f in dataclasses.fields(Gaussians)})
+    fewer = chosen(gaussians, np.sort(np.random.default_rng(seed).choice(n, count, replace=False)))
     return dataclasses.replace(fewer, log_scales=fewer.log_scales + np.float32(0.5 * np.log(n / count)))
 
 
 def placed(g: Gaussians, rotation: np.ndarray, middle: np.ndarray, scale: float) -> Gaussians:
     """Gaussians of degree 0 about a middle, turned and scaled."""
-    w, x, y, z = _quat(rotation)
-    a, b, c, d = np.moveaxis(np.asarray(g.quats, np.float64), -1, 0)
-    quats = np.stack([w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c, w * c - x * d + y * a + z * b,
-                      w * d + x * c - y * b + z * a], axis=-1)  # fmt: skip
-    return Gaussians(
-        means=(scale * (g.means - middle) @ rotation.T).astype(np.float32),
-        quats=quats.astype(np.float32),
-        log_scales=(g.log_scales + np.log(scale)).astype(np.float32),
-        opacity_logits=g.opacity_logits,
-        sh=g.sh[:, :1],
-    )
-
-
-def _quat(rotation: np.ndarray) -> np.ndarray:
-    x, y, z, w = Rotation.from_matrix(rotation).as_quat()
-    return np.array([w, x, y, z])
+    return turned(dataclasses.replace(g, sh=g.sh[:, :1]), rotation, scale, -scale * rotation @ middle)
 
 
 def with_harmonics(g: Gaussians, size: float, seed: int = 0) -> Gaussians:
@@ -75,8 +60,9 @@ def in_sight(run: FinishedRun, g: Gaussians, eye: np.ndarray) -> np.ndarray:
     return cast_rays(run.rays, np.broadcast_to(eye, away.shape).copy(), away).t > 1 - 0.05 / np.linalg.norm(away, axis=1)
 
 
-def chosen(g: Gaussians, mask: np.ndarray) -> Gaussians:
-    return Gaussians(**{f.name: np.asarray(getattr(g, f.name))[mask] for f in dataclasses.fields(Gaussians)})
+def chosen(g: Gaussians, which: np.ndarray) -> Gaussians:
+    """Those of a mask, or of indices."""
+    return jax.tree.map(lambda x: np.asarray(x)[which], g)
 
 
 def wonderworld(path: pathlib.Path, g: Gaussians, eye: np.ndarray) -> None:
@@ -110,7 +96,7 @@ def dreamscene360(path: pathlib.Path, seen: Gaussians, eye: np.ndarray) -> None:
 def stand_ins(run: FinishedRun, folder: pathlib.Path, *, count: int, room: int = 0) -> dict[str, pathlib.Path]:
     """Writes all stand-ins; returns their paths by method. They are centred where `room` has most air."""
     g, eye = thinned(run.gaussians, count), standing_place(run, room)
-    seen = chosen(g, in_sight(run, g, eye))
+    seen = thinned(chosen(run.gaussians, in_sight(run, run.gaussians, eye)), count)
     paths = {
         "wonderworld": folder / "wonderworld" / "x_finished_3dgs.splat",
         "flexworld": folder / "flexworld" / "x_gs_final_2.ply",

@@ -6,14 +6,20 @@ import pickle
 
 import numpy as np
 import pytest
+import trimesh
 
 from tests.compare import writers
 from wm.compare.adapters.registry import ADAPTERS, adapter_for, identity_of, read_scene
+from wm.compare.drawing import drawer_of
 from wm.compare.errors import CompareError
 from wm.compare.records import ComparedScene, Source
+from wm.finished import UnfinishedRunError, open_finished
+from wm.geometry import cast, make_camera
 from wm.splat import save_ply
 from wm.splat.rasterizer.harmonics import SH_C0
 from wm.types import Gaussians
+
+DOCS = pathlib.Path(__file__).parents[2] / "docs" / "comparison.md"
 
 
 def read(adapter: str, path: pathlib.Path, **told) -> ComparedScene:
@@ -159,8 +165,55 @@ def test_the_adapter_is_that_of_the_name_or_of_the_file(tmp_path):
     assert adapter_for("WonderWorld", tmp_path) == "wonderworld"
     assert adapter_for("any", tmp_path / "a.PLY") == "splats"
     assert adapter_for("any", tmp_path / "a.glb") == "mesh"
+    trimesh.creation.box().export(tmp_path / "mesh.ply")
+    save_ply(tmp_path / "splats.ply", writers.some_gaussians())
+    assert [adapter_for("any", tmp_path / f"{name}.ply") for name in ("mesh", "splats")] == ["mesh", "splats"]
     with pytest.raises(CompareError, match="any:ADAPTER="):
         adapter_for("any", tmp_path)
+
+
+def test_the_documentation_has_a_row_for_every_adapter():
+    rows = {line.split("`")[1]: line for line in DOCS.read_text("utf-8").splitlines() if line.startswith("| `")}
+    for name, module in ADAPTERS.items():
+        assert module.SYSTEM.commit[:7] in rows[name]
+        assert module.SYSTEM.source.partition(":")[0] in rows[name] or not module.SYSTEM.commit
+
+
+def test_a_run_of_ours_is_its_gaussians_in_metres_with_its_own_antialiasing(run_folder):
+    scene = read("ours", run_folder)
+    run = open_finished(run_folder)
+    assert_close(scene.gaussians, run.gaussians)
+    assert scene.metric and scene.run is not None and up_of(scene) == [0, 0, 1]
+    assert scene.antialias == run.raster.antialias
+    assert read("ours", run_folder, antialias=not run.raster.antialias).antialias == (not run.raster.antialias)
+    with pytest.raises(UnfinishedRunError, match="nothing"):
+        read("ours", run_folder.parent / "nothing")
+
+
+def test_the_scaffold_of_a_run_is_seen_as_the_run_casts_it(run_folder):
+    run = open_finished(run_folder)
+    scene = read("mesh", run.scaffold_file)
+    assert up_of(scene) == [0, 1, 0]
+    camera = run.views[0].camera
+    seen, cast_depth = drawer_of(scene)(camera), cast(run.rays, camera).depth
+    same = (np.abs(seen.depth - cast_depth) < 1e-3) | ((seen.depth == 0) & (cast_depth == 0))
+    assert same.mean() > 0.999  # at an edge a ray may take either face
+    assert np.ptp(seen.rgb[seen.alpha > 0], axis=0).min() > 0.2  # the textures are there
+
+
+@pytest.mark.parametrize("suffix", ["obj", "ply", "glb"])
+def test_a_mesh_of_trimesh_keeps_its_place_and_colours(suffix, tmp_path):
+    box = trimesh.creation.box((2, 4, 6))
+    box.visual.vertex_colors = np.column_stack([np.where(box.vertices > 0, 255, 0), np.full(8, 255)]).astype(np.uint8)
+    box.export(tmp_path / f"box.{suffix}")
+    scene = read("mesh", tmp_path / f"box.{suffix}", up="z")
+    camera = make_camera(np.zeros(3), np.array([1.0, 0, 0]), width=40, height=40, fov_deg=90.0)
+    seen = drawer_of(scene)(camera)
+    np.testing.assert_allclose(seen.depth, 1, atol=1e-5)  # the wall at x = 1
+    across = 1 - (np.arange(40) + 0.5) / 20  # y of a column, z of a row
+    y, z = np.meshgrid(across, across)
+    exact = [np.ones_like(y), 0.5 + y / 4, 0.5 + z / 6]
+    np.testing.assert_allclose(seen.rgb, np.stack(exact, -1), atol=0.01)
 
 
 def test_the_identity_of_a_source_follows_what_decides_the_picture(tmp_path):

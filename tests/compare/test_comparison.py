@@ -10,9 +10,13 @@ import pytest
 from tests.compare import writers
 from wm.compare import comparison
 from wm.compare.__main__ import main
+from wm.compare.adapters import splats
 from wm.compare.errors import CompareError
 from wm.compare.table import MethodRow, markdown, summary
 from wm.compare.words import parse
+from wm.study.__main__ import main as study_command
+from wm.study.folder import Study, open_study
+from wm.study.sessions import Trial
 from wm.types import Gaussians
 
 SMALL = ["frames=8", "size=64x36"]
@@ -47,6 +51,7 @@ def test_methods_become_a_table_videos_and_cameras_and_the_second_call_renders_n
     assert [row["method"] for row in rows] == ["ours", "dreamscene360"]
     assert float(rows[0]["warp_explained"]) == told["ours"]["figures"]["warp_explained"]
     assert float(rows[1]["holes"]) < 0.05
+    assert told["dreamscene360"]["system"]["scale"] == "the farthest point at 1.43"
 
     def refuse(*args):
         raise AssertionError("a scene was read again")
@@ -85,6 +90,40 @@ def test_one_path_of_cameras_is_rendered_of_all(tmp_path):
     assert first == second
 
 
+def test_a_path_that_a_scene_lacks_is_said_before_anything_is_rendered(run_folder, tmp_path, capsys):
+    assert main([f"ours={run_folder}", "trajectories=[along1,door9]", *SMALL, f"output={tmp_path}"]) == 2
+    assert "number 9 is none" in capsys.readouterr().err
+    assert not list(tmp_path.rglob("*.mp4"))
+
+
+def test_videos_of_a_comparison_become_a_study_and_its_answers_tables(tmp_path):
+    for name, n in (("ours", 3000), ("other", 800)):
+        writers.inria_ply(tmp_path / f"{name}.ply", shell(n))
+    words = [f"{name}:splats={tmp_path / name}.ply" for name in ("ours", "other")]
+    assert main([*words, "trajectories=[along,around]", *SMALL, f"output={tmp_path / 'out'}"]) == 0
+    videos = [f"{name}={tmp_path / 'out/videos' / name}" for name in ("ours", "other")]
+    assert study_command(["make", *videos, f"output={tmp_path / 'study'}", "participants=3"]) == 0
+    study = open_study(tmp_path / "study")
+    for slot, trials in enumerate(study.sessions):
+        sheet = {"version": 1, "study": study.id, "participant": f"{slot:032x}", "slot": slot}
+        sheet["answers"] = [_answer(study, trial) for trial in trials]
+        (tmp_path / f"study/answers/{slot}.json").write_text(json.dumps(sheet))
+    assert study_command(["analyse", str(tmp_path / "study")]) == 0
+    rows = list(csv.DictReader((tmp_path / "study/results/ratings.csv").read_text().splitlines()))
+    assert {row["method"]: float(row["mean"]) for row in rows} == {"ours": 5, "other": 2}
+    (row,) = csv.DictReader((tmp_path / "study/results/preferences.csv").read_text().splitlines())
+    assert (row["method"], row["against"], float(row["share"])) == ("ours", "other", 1)
+
+
+def _answer(study: Study, trial: Trial) -> dict[str, object]:
+    """What somebody answers who likes ours."""
+    methods = [study.videos[name][0] for name in trial.videos]
+    if trial.is_pair:
+        return {"choice": trial.check or ("left" if methods[0] == "ours" else "right")}
+    value = trial.check or (5 if methods[0] == "ours" else 2)
+    return {"ratings": {question.id: value for question in study.questions.ratings}}
+
+
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -95,7 +134,10 @@ def test_one_path_of_cameras_is_rendered_of_all(tmp_path):
         (["a=x.ply", "a=y.ply"], "given twice"),
         (["a=x.ply", "b.up=z"], "no method b"),
         (["a=x.ply", "a.up=w"], "a.up=w"),
+        (["wonderworld=x.ply", "wonderworld.up=z"], "wonderworld.up: the files of wonderworld say so"),
+        (["a=x.glb", "a.antialias=true"], "options of it: up, cameras"),
         (["a=x.ply", "frames=1"], "frames=1"),
+        (["a=x.ply", "frames=8", "frames=9"], "frames= is given twice"),
         (["a=x.ply", "size=688"], "WIDTHxHEIGHT"),
         (["a=x.ply", "trajectories=[up]"], "no trajectory"),
         (["../a=x.ply"], "cannot name a method"),
@@ -126,6 +168,7 @@ def test_absolute_errors_are_divided_by_one_scale_of_the_method():
 
 
 def test_the_best_of_a_column_is_bold_and_what_is_missing_a_dash():
-    rows = [MethodRow("a", "splats", {"holes": 0.5, "warp_explained": 0.5}), MethodRow("b", "splats", {"holes": 0.25})]
+    told = {"a": {"holes": 0.5, "warp_explained": 0.5}, "b": {"holes": 0.25}}
+    rows = [MethodRow(method, "splats", splats.SYSTEM, figures) for method, figures in told.items()]
     table = markdown(rows)
     assert "**25.00**" in table and "**50.0" not in table and "–" in table

@@ -35,7 +35,8 @@ def test_no_frame_of_ours_touches_anything(name, paths):
     assert free(run.rays, centers, 0.9 * min(CLEARANCE, NEAREST)).all()
     assert np.ptp(centers, axis=0).max() > 0.2
     again = RunPaths(open_finished(run.folder), PICTURE).path(name)
-    assert again.key == trajectory.key
+    for a, b in zip(trajectory.cameras, again.cameras, strict=True):
+        np.testing.assert_array_equal(a.T_cam_world, b.T_cam_world)
 
 
 def test_an_object_stays_in_the_middle_while_it_is_walked_round(paths):

@@ -56,7 +56,7 @@ def test_the_text_encoder_is_no_part_of_the_aesthetic_score(tmp_path, arrays):
 @pytest.mark.parametrize("source", ["", "/no/such/folder", "lab/weights", "lab/weights@main", "a/b/c"])
 def test_what_is_neither_a_folder_nor_a_commit_is_refused_before_anything_is_made(source):
     for check in (check_quality, open_quality):
-        with pytest.raises(InputError, match=r"evaluate\.quality=.*is no folder here; .* OWNER/NAME@COMMIT"):
+        with pytest.raises(InputError, match=r"quality=.*is no folder here; .* OWNER/NAME@COMMIT"):
             check(source)
 
 

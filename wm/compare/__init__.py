@@ -7,6 +7,7 @@
     inputs                what other systems start from, made of a run
     records               Source, System, ComparedScene
     axes                  upright: which way is up
+    bilinear              bilinear: an image between its pixels
     painted_mesh          see: a textured mesh as rays see it
     drawing               drawer_of: what a camera sees of any scene
     trajectories          Trajectory, Picture: names and files of camera paths

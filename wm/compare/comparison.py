@@ -2,12 +2,12 @@
 
 import dataclasses
 import pathlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from wm.artifacts.atomic import write_atomically
 from wm.artifacts.digests import digest, file_digest, json_text
 from wm.compare import agreement, consistency
-from wm.compare.adapters.registry import identity_of, read_scene
+from wm.compare.adapters.registry import ADAPTERS, identity_of, read_scene
 from wm.compare.drawing import Drawer, drawer_of
 from wm.compare.measuring import VERSION, measure
 from wm.compare.records import ComparedScene, Source
@@ -70,18 +70,18 @@ def _measure_all(
 ) -> None:
     scene = read_scene(source)
     draw = drawer_of(scene)
-    for name, key in keys.items():
-        bar.set_postfix_str(f"{source.method} {name}")
-        trajectory = _trajectory(request, scene, draw, name)
+    for trajectory in _trajectories(request, scene, draw, list(keys)):
+        bar.set_postfix_str(f"{source.method} {trajectory.name}")
         figures = measure(trajectory, draw, store, source.method, request.picture, done=bar.update, quality=quality)
-        store.keep(source.method, name, key, figures)
+        store.keep(source.method, trajectory.name, keys[trajectory.name], figures)
 
 
-def _trajectory(request: ComparisonRequest, scene: ComparedScene, draw: Drawer, name: str) -> Trajectory:
+def _trajectories(request: ComparisonRequest, scene: ComparedScene, draw: Drawer, names: Sequence[str]) -> list[Trajectory]:
+    """All of a scene's paths, before the first is rendered: it may lack one. One survey of the scene serves all."""
     if request.shared is not None:
-        return read_file(request.shared, request.picture)
+        return [read_file(request.shared, request.picture)]
     paths = RunPaths(scene.run, request.picture) if scene.run is not None else ForeignPaths(scene, draw, request.picture)
-    return paths.path(name)
+    return [paths.path(name) for name in names]
 
 
 def _write(request: ComparisonRequest, store: Store, keys: Mapping[str, Mapping[str, str]]) -> str:
@@ -90,7 +90,8 @@ def _write(request: ComparisonRequest, store: Store, keys: Mapping[str, Mapping[
         own = keys[source.method]
         measured[source.method] = {name: store.known(source.method, name, key) or {} for name, key in own.items()}
     rows = [
-        MethodRow(source.method, source.adapter, summary(list(measured[source.method].values()))) for source in request.sources
+        MethodRow(source.method, source.adapter, ADAPTERS[source.adapter].SYSTEM, summary(list(measured[source.method].values())))
+        for source in request.sources
     ]
     table = markdown(rows)
     write_atomically(request.output / TABLE, table)

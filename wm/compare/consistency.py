@@ -18,8 +18,9 @@ import dataclasses
 import numpy as np
 from jaxtyping import Float
 
+from wm.compare.bilinear import bilinear
 from wm.geometry.rays.pinhole import project_points, unproject_depth
-from wm.splat.reprojection import every
+from wm.splat.reprojection import every, sample_depth
 from wm.types import Camera
 
 STEP = 4
@@ -75,15 +76,15 @@ def consistency(frame: DrawnFrame, later: DrawnFrame, *, stride: int = STRIDE) -
     rgb = frame.rgb[first::stride, first::stride]
     uv, z = project_points(later.camera, unproject_depth(camera, depth).reshape(-1, 3))
     uv = np.where((depth.reshape(-1) > 0)[:, None], uv, np.nan)
-    there, color = _looked_up(later, uv)
-    known = there > 0
-    seen = known & (z <= (1 + OCCLUSION) * there)
+    there = sample_depth(later.depth, uv)
+    seen = (there > 0) & (z <= (1 + OCCLUSION) * there)
     if not seen.any():
         return Consistency(color=0.0, still=0.0, depth=0.0, lost=0.0, pixels=0)
     own, still = rgb.reshape(-1, 3)[seen], later.rgb[first::stride, first::stride].reshape(-1, 3)[seen]
+    shown = bilinear(later.rgb, uv[seen])
     apart = np.abs(z[seen] - there[seen]) / there[seen]
     return Consistency(
-        color=float(np.abs(own - color[seen]).mean(axis=1).sum()),
+        color=float(np.abs(own - shown).mean(axis=1).sum()),
         still=float(np.abs(own - still).mean(axis=1).sum()),
         depth=float(np.minimum(apart, MOST).sum()),
         lost=float((z[seen] < (1 - OCCLUSION) * there[seen]).sum()),
@@ -100,22 +101,3 @@ def means(parts: list[Consistency]) -> dict[str, float]:
     explained = 1 - total["color"] / total["still"] if total["still"] > 0 else None
     rows = {"warp_color": total["color"], "warp_explained": explained, "warp_depth": total["depth"], "warp_lost": total["lost"]}
     return {name: value for name, value in rows.items() if value is not None}
-
-
-def _looked_up(frame: DrawnFrame, uv: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, "n"], Float[np.ndarray, "n 3"]]:
-    """Depth (0 where a neighbour lacks it or it lies outside) and colour at pixel positions, bilinear; depth in its inverse."""
-    h, w = frame.depth.shape
-    x, y = uv[:, 0] - 0.5, uv[:, 1] - 0.5
-    inside = (x >= 0) & (x <= w - 1) & (y >= 0) & (y <= h - 1)
-    x, y = np.where(inside, x, 0.0), np.where(inside, y, 0.0)
-    i, j = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-    inverse = np.where(frame.depth > 0, 1 / np.where(frame.depth > 0, frame.depth, 1), 0)
-    total, color, known = np.zeros(len(uv)), np.zeros((len(uv), 3)), inside
-    for dj, wy in ((0, 1 - (y - j)), (1, y - j)):
-        for di, wx in ((0, 1 - (x - i)), (1, x - i)):
-            at = (np.minimum(j + dj, h - 1), np.minimum(i + di, w - 1))
-            weight = wx * wy
-            total += weight * inverse[at]
-            color += weight[:, None] * frame.rgb[at]
-            known = known & ((inverse[at] > 0) | (weight == 0))
-    return np.where(known & (total > 0), 1 / np.where(total > 0, total, 1), 0.0), color

@@ -25,7 +25,7 @@ class Source:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class System:
-    """Facts of a system's files, as its public code writes them: a row of docs/comparison.md."""
+    """Facts of a system's files, as its public code writes them: a row of docs/comparison.md, and part of comparison.json."""
 
     name: str
     file: str  # what is read
@@ -36,6 +36,7 @@ class System:
     antialias: bool
     source: str  # where this was read; empty for formats of no one system
     commit: str
+    options: tuple[str, ...] = ()  # of METHOD.option=value, those that its files leave open
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

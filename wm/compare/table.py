@@ -10,6 +10,7 @@ import numpy as np
 from tabulate import tabulate
 
 from wm.compare.paper import PAPER
+from wm.compare.records import System
 from wm.metric_table import MISSING, Metric
 
 Figures = Mapping[str, float | int | None]
@@ -46,6 +47,7 @@ class MethodRow:
 
     method: str
     adapter: str
+    system: System
     figures: Figures
 
 
@@ -109,9 +111,14 @@ def as_csv(rows: Sequence[MethodRow]) -> str:
 
 
 def as_json(rows: Sequence[MethodRow], measured: Mapping[str, Mapping[str, Figures]]) -> dict[str, Any]:
-    """Every figure: of each method, of each of its trajectories, and of the paper."""
+    """Every figure: of each method, of each of its trajectories, and of the paper; and what each file was taken for."""
     methods = {
-        row.method: {"adapter": row.adapter, "figures": dict(row.figures), "trajectories": dict(measured[row.method])}
+        row.method: {
+            "adapter": row.adapter,
+            "system": dataclasses.asdict(row.system),
+            "figures": dict(row.figures),
+            "trajectories": dict(measured[row.method]),
+        }
         for row in rows
     }
     return {"version": 1, "methods": methods, "paper": {row.adapter: PAPER[row.adapter] for row in rows if row.adapter in PAPER}}

@@ -16,16 +16,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from wm.artifacts.digests import digest, json_text
+from wm.artifacts.digests import json_text
 from wm.compare.errors import CompareError
-from wm.geometry import load_cameras
+from wm.geometry import load_cameras, opengl_pose
 from wm.geometry.rays.pinhole import make_camera
 from wm.types import Camera
 
 KINDS = ("around", "close", "along", "door")
 DEFAULT = ("around1", "around2", "close1", "along1", "door1")
 _NAME = re.compile(rf"({'|'.join(KINDS)})([1-9]\d?)")
-_OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,11 +47,6 @@ class Trajectory:
 
     name: str
     cameras: tuple[Camera, ...]
-
-    @property
-    def key(self) -> str:
-        """A digest of its cameras."""
-        return digest("trajectory", *(np.asarray(camera.T_cam_world, np.float64).round(9) for camera in self.cameras))
 
 
 def parse_names(words: Sequence[str]) -> list[str]:
@@ -92,7 +86,7 @@ def file_text(trajectory: Trajectory, picture: Picture) -> str:
     """The cameras in nerfstudio's transforms.json, as `trajectories=FILE` reads them."""
     first = trajectory.cameras[0]
     rows = [
-        {"name": f"{trajectory.name}/{k:04d}", "transform_matrix": _pose(camera).round(9).tolist()}
+        {"name": f"{trajectory.name}/{k:04d}", "transform_matrix": opengl_pose(camera).round(9).tolist()}
         for k, camera in enumerate(trajectory.cameras)
     ]
     lens = {"fl_x": float(first.focal[0]), "fl_y": float(first.focal[1]), "cx": picture.width / 2, "cy": picture.height / 2}
@@ -110,7 +104,3 @@ def read_file(path: pathlib.Path, picture: Picture) -> Trajectory:
     like = picture.camera(np.zeros(3), np.array([1.0, 0, 0]))
     cameras = [dataclasses.replace(like, T_cam_world=np.asarray(view.camera.T_cam_world, np.float64)) for view in views]
     return Trajectory(name=path.stem, cameras=tuple(cameras))
-
-
-def _pose(camera: Camera) -> np.ndarray:
-    return np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _OPENGL_FROM_OPENCV

@@ -1,8 +1,9 @@
 """The words of the command line: METHOD=PATH, METHOD.option=value, and settings of the comparison."""
 
+import collections
 import dataclasses
 import pathlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from wm.compare.adapters.registry import ADAPTERS, adapter_for
 from wm.compare.axes import UP
@@ -20,6 +21,7 @@ _MOST = 16384  # pixels along a side, as of cameras.width
 def parse(words: Sequence[str]) -> ComparisonRequest:
     """The comparison that words ask for. Raises: CompareError, in one line that says what would be right."""
     pairs = [_pair(word) for word in words]
+    _check_once(key for key, _ in pairs)
     settings = {key: value for key, value in pairs if key in _SETTINGS}
     options = [(key, value) for key, value in pairs if key not in _SETTINGS and "." in key and key.rpartition(".")[2] in _OPTIONS]
     methods = [pair for pair in pairs if pair[0] not in _SETTINGS and pair not in options]
@@ -45,6 +47,12 @@ def parse(words: Sequence[str]) -> ComparisonRequest:
     )
 
 
+def _check_once(keys: Iterable[str]) -> None:
+    for key, count in collections.Counter(keys).items():
+        if count > 1:
+            raise CompareError(f"{key}= is given twice; NAME:ADAPTER=PATH gives a system several rows")
+
+
 def _pair(word: str) -> tuple[str, str]:
     key, equals, value = word.partition("=")
     if not equals or not key or not value:
@@ -64,6 +72,10 @@ def _source(key: str, value: str) -> Source:
 
 
 def _with_option(source: Source, option: str, value: str) -> Source:
+    takes = ADAPTERS[source.adapter].SYSTEM.options
+    if option not in takes:
+        right = ", ".join(takes) or "none"
+        raise CompareError(f"{source.method}.{option}: the files of {source.adapter} say so themselves; options of it: {right}")
     match option:
         case "up" if value in UP:
             return dataclasses.replace(source, up=value)

@@ -13,6 +13,7 @@ embreex is imported when the first ray scene is built and trimesh when the first
 
 from wm.geometry.cameras.camera_file import CameraFileError as CameraFileError
 from wm.geometry.cameras.camera_file import load_cameras as load_cameras
+from wm.geometry.cameras.camera_file import opengl_pose as opengl_pose
 from wm.geometry.cameras.colmap import save_colmap as save_colmap
 from wm.geometry.cameras.heldout import place_heldout as place_heldout
 from wm.geometry.cameras.sightlines import visible_rooms as visible_rooms

@@ -63,7 +63,7 @@ def open_quality(source: str) -> Quality:
     folder = find_folder(source)
     pairs = pairs_in(folder)
     if not pairs:
-        raise InputError(f"evaluate.quality={source}: no pair of weights is in it (docs/evaluation.md names the files)")
+        raise InputError(f"quality={source}: no pair of weights is in it (docs/evaluation.md names the files)")
     return Quality(files={_KEYS[a]: (Checkpoint(path=folder / a), Checkpoint(path=folder / b)) for a, b in pairs})
 
 

@@ -60,7 +60,7 @@ def find_folder(source: str) -> pathlib.Path:
         return pathlib.Path(hub.snapshot_download(name, revision=commit, allow_patterns=list(FILES)))
     except Exception as error:  # of the hub, of its HTTP client, of the network
         line = (str(error).strip() or type(error).__name__).splitlines()[0]
-        raise ServiceError(f"evaluate.quality={source}: the hub does not give it ({line}); a folder would be right") from error
+        raise ServiceError(f"quality={source}: the hub does not give it ({line}); a folder would be right") from error
 
 
 def check_source(source: str) -> None:
@@ -68,13 +68,11 @@ def check_source(source: str) -> None:
     folder = pathlib.Path(source).expanduser()
     if not (source and folder.is_dir()) and not _REPOSITORY.fullmatch(source):
         raise InputError(
-            f"evaluate.quality={source!r} is no folder here; a folder with weights, or OWNER/NAME@COMMIT (40 hex digits) of the "
+            f"quality={source!r} is no folder here; a folder with weights, or OWNER/NAME@COMMIT (40 hex digits) of the "
             "Hugging Face hub, would be right (docs/evaluation.md)"
         )
     if folder.is_dir() and not pairs_in(folder):
-        raise InputError(
-            f"evaluate.quality={source}: no weights are in it; {RN50} and {PROMPTS}, or {VIT_L14} and {HEAD}, would be right"
-        )
+        raise InputError(f"quality={source}: no weights are in it; {RN50} and {PROMPTS}, or {VIT_L14} and {HEAD}, would be right")
 
 
 def pairs_in(folder: pathlib.Path) -> list[tuple[str, str]]:

@@ -129,11 +129,14 @@ def _move(depth_i, camera_i: Camera, depth_j, camera_j: Camera) -> _Moved:
     h, w = depth_i.shape
     uv, depth = project_points(camera_j, unproject_depth(camera_i, depth_i).reshape(-1, 3))
     uv = np.where((depth_i > 0)[..., None], uv.reshape(h, w, 2), np.nan)
-    return _Moved(depth=depth.reshape(h, w), there=_sample(depth_j, uv), uv=uv)
+    return _Moved(depth=depth.reshape(h, w), there=sample_depth(depth_j, uv), uv=uv)
 
 
-def _sample(depth, uv):
-    """Depth at pixel positions: bilinear in 1 / depth, which is affine over a plane's image; 0 where a neighbour lacks it."""
+def sample_depth(depth: Float[np.ndarray, "h w"], uv: Float[np.ndarray, "*n 2"]) -> Float[np.ndarray, "*n"]:
+    """Depth at pixel positions: bilinear in 1 / depth, which is affine over a plane's image.
+
+    It is 0 where a neighbour lacks it, outside the image, and where the position is NaN.
+    """
     h, w = depth.shape
     x, y = np.moveaxis(uv, -1, 0) - 0.5
     inside = (x >= 0) & (x <= w - 1) & (y >= 0) & (y <= h - 1)

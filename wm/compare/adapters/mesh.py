@@ -18,6 +18,7 @@ SYSTEM = System(
     antialias=False,
     source="docs/comparison.md",
     commit="",
+    options=("up", "cameras"),
 )
 _EXPECTED = f"a mesh ({', '.join(SUFFIXES)})"
 

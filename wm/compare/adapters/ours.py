@@ -1,7 +1,5 @@
 """A run folder of wm, to its end or at least to its gaussians."""
 
-import pathlib
-
 import numpy as np
 
 from wm.artifacts.digests import digest
@@ -18,12 +16,8 @@ SYSTEM = System(
     antialias=False,
     source="this repository",
     commit="",
+    options=("antialias",),
 )
-
-
-def files(source: Source) -> list[pathlib.Path]:
-    """The files whose content decides what is drawn. Raises: UnfinishedRunError."""
-    return [open_finished(source.path).splats_file]
 
 
 def identity(source: Source) -> str:

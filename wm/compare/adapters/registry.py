@@ -17,6 +17,8 @@ from wm.compare.adapters import (
 )
 from wm.compare.errors import CompareError
 from wm.compare.records import ComparedScene, Source
+from wm.splat import PlyError
+from wm.splat.ply.header import read_header
 
 ADAPTERS: dict[str, types.ModuleType] = {
     "ours": ours,
@@ -29,7 +31,7 @@ ADAPTERS: dict[str, types.ModuleType] = {
     "splats": splats,
     "mesh": mesh,
 }
-"""Each has SYSTEM, files(source) and read(source)."""
+"""Each has SYSTEM, read(source), and files(source), for which a run of ours has identity(source)."""
 
 VERSION = 1
 """To be raised when an adapter comes to make another scene of the same file."""
@@ -42,6 +44,8 @@ def adapter_for(method: str, path: pathlib.Path) -> str:
     if (path / "manifest.json").is_file():
         return "ours"
     suffix = path.suffix.lower()
+    if suffix == ".ply" and _has_faces(path):
+        return "mesh"
     if suffix in splats.SUFFIXES:
         return "splats"
     if suffix in mesh.SUFFIXES:
@@ -49,6 +53,15 @@ def adapter_for(method: str, path: pathlib.Path) -> str:
     raise CompareError(
         f"{method}: nothing tells how to read {path}; {method}:ADAPTER={path} would, with one of {', '.join(ADAPTERS)}"
     )
+
+
+def _has_faces(path: pathlib.Path) -> bool:
+    """Whether a PLY is a mesh. A file that cannot be read has none: the adapter says what is wrong with it."""
+    try:
+        header = read_header(path)
+    except (OSError, PlyError):
+        return False
+    return any(element.name == "face" and element.count > 0 for element in header.elements)
 
 
 def identity_of(source: Source) -> str:

@@ -22,6 +22,7 @@ SYSTEM = System(
     antialias=False,
     source="docs/comparison.md",
     commit="",
+    options=("up", "antialias", "cameras"),
 )
 _EXPECTED = f"a file of gaussians ({', '.join(SUFFIXES)})"
 

@@ -18,6 +18,7 @@ from wm.artifacts.atomic import write_atomically
 from wm.artifacts.digests import json_text
 from wm.codecs import encode_png
 from wm.color import to_bytes
+from wm.compare.bilinear import bilinear
 from wm.compare.drawing import Drawer
 from wm.compare.inputs.spatialgen import millimetres
 from wm.compare.inputs.standing import standing_place
@@ -56,7 +57,7 @@ def panorama(draw: Drawer, eye: Float[np.ndarray, "3"], height: int) -> tuple[np
         values = np.concatenate([np.asarray(seen.rgb), (np.asarray(seen.depth) * length)[..., None]], axis=-1)
         own = forward == index
         local = rays[own] @ camera_rotation(camera).T
-        found = _bilinear(values, local[:, :2] / local[:, 2:] * camera.focal + camera.principal)
+        found = bilinear(values, local[:, :2] / local[:, 2:] * camera.focal + camera.principal)
         rgb[own], distance[own] = found[:, :3], found[:, 3]
     return rgb, distance
 
@@ -67,14 +68,3 @@ def directions(height: int) -> Float[np.ndarray, "h w 3"]:
     azimuth = np.pi - (np.arange(2 * height) + 0.5) * np.pi / height
     across, up = np.cos(elevation)[:, None], np.sin(elevation)[:, None]
     return np.stack(np.broadcast_arrays(across * np.cos(azimuth), across * np.sin(azimuth), up), axis=-1)
-
-
-def _bilinear(values: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    h, w = values.shape[:2]
-    at = np.clip(uv - 0.5, 0, [w - 1.001, h - 1.001])
-    low = np.floor(at).astype(np.int64)
-    share = at - low
-    (i, j), (x, y) = low.T, share.T
-    top = values[j, i] * (1 - x)[:, None] + values[j, i + 1] * x[:, None]
-    bottom = values[j + 1, i] * (1 - x)[:, None] + values[j + 1, i + 1] * x[:, None]
-    return top * (1 - y)[:, None] + bottom * y[:, None]

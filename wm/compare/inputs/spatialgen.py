@@ -33,7 +33,7 @@ from wm.compare.painted_mesh import PaintedMesh, read_painted_mesh, see
 from wm.finished import FinishedRun
 from wm.geometry import cast
 from wm.geometry.cameras.air import free
-from wm.geometry.rays.pinhole import make_camera
+from wm.geometry.rays.pinhole import camera_center, make_camera
 from wm.types import OUTSIDE, Camera, SurfaceKind
 
 VIEWS, SIDE, FOV = 16, 512, 90.0
@@ -65,7 +65,7 @@ def circle(run: FinishedRun, room: int) -> list[Camera]:
 
 def _room(run: FinishedRun, painted: PaintedMesh, room: int, folder: pathlib.Path) -> pathlib.Path:
     cameras = circle(run, room)
-    eyes = np.array([np.linalg.inv(camera.T_cam_world)[:3, 3] for camera in cameras])
+    eyes = np.array([camera_center(camera) for camera in cameras])
     layout = room_layout(run, room, around=eyes)
     for k, camera in enumerate(cameras):
         _view(run, painted, layout, camera, folder, f"frame_{k:02d}")

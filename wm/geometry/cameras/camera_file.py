@@ -13,12 +13,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jaxtyping import Float
 from PIL import Image
 
 from wm.types import OUTSIDE, Camera, View
 
 _OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 _DISTORTION = ("k1", "k2", "k3", "k4", "p1", "p2")
+
+
+def opengl_pose(camera: Camera) -> Float[np.ndarray, "4 4"]:
+    """The pose of a camera as transforms.json has it: camera to world, with OpenGL's axes."""
+    return np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _OPENGL_FROM_OPENCV
 
 
 class CameraFileError(ValueError):

@@ -1,7 +1,7 @@
 """Gaussians on disk, in the layout that every splat viewer opens, and the layouts of other programs.
 
     errors      PlyError
-    header      the text at the head of a PLY file: its format, elements and comments
+    header      read_header: the text at the head of a PLY file: its format, elements and comments
     body        the rows of its elements, binary or ASCII
     dialects    which properties hold gaussians: INRIA, 2DGS, red-green-blue, point clouds
     compressed  PlayCanvas's packed layout

@@ -5,6 +5,7 @@ Source: Turk, "The PLY Polygon File Format" (1994).
 
 import dataclasses
 import re
+from pathlib import Path
 
 from wm.splat.ply.errors import PlyError
 
@@ -49,6 +50,12 @@ class Header:
     elements: tuple[Element, ...]  # in the order in which they follow
     comments: tuple[str, ...]  # without the word `comment`
     start: int  # offset of the first byte after the header
+
+
+def read_header(path: str | Path) -> Header:
+    """The header of a file, without its rows. Raises: PlyError, OSError."""
+    with Path(path).open("rb") as file:
+        return parse_header(str(path), file.read(LONGEST))
 
 
 def parse_header(file: str, raw: bytes) -> Header:

@@ -7,7 +7,7 @@ from wm.splat.ply.body import Table, read_tables
 from wm.splat.ply.compressed import PACKED, unpacked
 from wm.splat.ply.dialects import Columns, to_gaussians
 from wm.splat.ply.errors import PlyError
-from wm.splat.ply.header import Element, Header, Property, parse_header
+from wm.splat.ply.header import Element, Header, Property, parse_header, read_header
 from wm.types import Gaussians
 
 RenderMode = Literal["default", "mip", "2dgs"]
@@ -44,8 +44,7 @@ def splat_render_mode(path: str | Path) -> RenderMode:
     Raises:
         PlyError: the file has no header of a PLY file.
     """
-    with Path(path).open("rb") as file:
-        header = parse_header(str(path), file.read(1 << 20))
+    header = read_header(path)
     vertex = _element(header, "vertex")
     names = {p.name for p in vertex.properties} if vertex else set()
     if {"scale_0", "scale_1", "rot_0", "opacity"} <= names and "scale_2" not in names:
