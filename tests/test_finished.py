@@ -7,20 +7,13 @@ import numpy as np
 import pytest
 
 from wm.artifacts.atomic import write_atomically
-from wm.cli.composition import load_config
 from wm.finished import UnfinishedRunError, open_finished
-from wm.pipeline import run
 from wm.splat import load_ply
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    small = {"cameras.width": 64, "cameras.height": 36, "cameras.perimeter": 4, "cameras.overhead": 1, "fit.steps": 4}
-    told = ["+scene=scandinavian", "preset=draft", "scene.rooms=[living room,bathroom]", "report.enabled=false"]
-    told += [f"{name}={value}" for name, value in small.items()]
-    path = tmp_path_factory.mktemp("finished") / "run"
-    run(load_config([*told, f"output={path}"]), path)
-    return path
+@pytest.fixture
+def folder(finished):
+    return finished.folder
 
 
 def test_gaussians_are_those_of_the_splat_file_with_their_rooms(folder):

@@ -122,7 +122,11 @@ def test_damage_is_said_and_mended(whole, tmp_path, capsys):
     assert _bytes(tmp_path) == _bytes(whole)
 
 
-def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(whole, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize(
+    "change",
+    ["fit.depth_weight=0.4", pytest.param("variant=no_depth_loss", marks=pytest.mark.slow)],  # which compiles other steps
+)
+def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(change, whole, tmp_path, monkeypatch, capsys):
     save, made = RunFolder.save, []
 
     def listening(self, *arguments):
@@ -130,7 +134,7 @@ def test_what_a_neighbour_has_done_is_taken_over_and_accounted_for(whole, tmp_pa
         return save(self, *arguments)
 
     monkeypatch.setattr(RunFolder, "save", listening)
-    config = load_config([*SMALL, "variant=no_depth_loss"])
+    config = load_config([*SMALL, change])
     run(config, tmp_path / "borrowed", neighbours=[whole])
     assert "paint: taken from" in capsys.readouterr().out
     assert not {"plan", "furnish", "paint", "heldout"} & set(made) and "reconstruct" in made

@@ -1,23 +1,25 @@
 """What a capture writes is read back: poses by `load_cameras`, depth onto the mesh, TUM's poses by their definition."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
-from tests.fitted_run import fitted_run
 from wm.capture.__main__ import main
 from wm.capture.labels import label_table
+from wm.finished import open_finished
 from wm.geometry import camera_center, camera_rays, load_cameras, unproject_depth
 from wm.geometry.rays._reference import cast_rays_reference
 from wm.types import Camera, SurfaceKind
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
-    return fitted_run(tmp_path_factory.mktemp("fitted") / "run")
+def run(finished, tmp_path_factory):
+    """A copy, since what is captured is written into the run."""
+    return open_finished(shutil.copytree(finished.folder, tmp_path_factory.mktemp("fitted") / "run"))
 
 
 @pytest.fixture(scope="module")

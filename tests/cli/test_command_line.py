@@ -39,7 +39,7 @@ def hydras(text: str) -> bool:
     return "${" in text or (len(bare) > 1 and bare[0] == bare[-1] and bare[0] in "'\"") or bool(re.match(r"[a-z]+\(.*\)$", bare))
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(TEXTS)
 @example("${scene.name} \\${x} \\\\")
 @example("it's \\")
@@ -48,7 +48,7 @@ def test_a_theme_after_its_flag_arrives_whatever_it_is(text):
     assert arrived(f"--theme={text}")["theme"] == text
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(TEXTS)
 @example("'tis oak, 'twas brass")
 @example("[a, b]")
@@ -59,7 +59,7 @@ def test_a_theme_in_an_override_arrives_as_typed_unless_it_is_one_of_hydras_form
         assert arrived(f"++scene.theme={text}")["theme"] == text
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(ROOMS)
 def test_rooms_arrive_in_order_whatever_their_names_are(rooms):
     assert arrived("--rooms", ", ".join(rooms))["rooms"] == rooms
@@ -172,7 +172,7 @@ def test_what_is_wrong_is_said_in_a_line_with_what_is_right(arguments, said):
     assert "\n" not in str(caught.value)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.text(max_size=200))
 def test_a_scenes_name_is_safe_short_and_settled(theme):
     name = scene_name(theme)
@@ -198,7 +198,7 @@ def test_themes_without_latin_letters_have_names_of_their_own():
     assert len({scene_name(theme) for theme in ("ラーメン屋", "寿司屋", "", "!")}) == 4
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(TEXTS)
 def test_quoting_is_what_hydra_reads_back(text):
     assert PARSER.parse_override(f"key={quoted(text)}").value() == text

@@ -16,16 +16,10 @@ from wm.compare.inputs.layout import box_of, room_layout
 from wm.compare.inputs.panorama import directions, panorama
 from wm.compare.inputs.spatialgen import FOV, SIDE, VIEWS, circle, millimetres, write_spatialgen
 from wm.compare.painted_mesh import see
-from wm.finished import open_finished
 from wm.geometry import cast, cast_rays
 from wm.geometry.cameras.air import free
 from wm.geometry.plan.footprint import interior_polygon
 from wm.geometry.rays.pinhole import camera_center, camera_rotation
-
-
-@pytest.fixture(scope="module")
-def finished(run_folder):
-    return open_finished(run_folder)
 
 
 def test_views_stand_on_a_circle_of_free_places_and_look_outwards(finished):

@@ -14,8 +14,10 @@ import pytest
 import shapely
 from PIL import Image
 
+from wm.cli.composition import load_config
 from wm.finished import open_finished
 from wm.geometry import interior_polygon, portals
+from wm.pipeline import run as run_pipeline
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.view.server import serve
 from wm.view.site import build_site, write_site
@@ -35,6 +37,17 @@ AS_URL = """async () => {
     reader.readAsDataURL(picture);
   });
 }"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A run with larger pictures than the one that all tests share, so that they can be compared with the page's."""
+    small = {"cameras.width": 128, "cameras.height": 72, "cameras.perimeter": 4, "cameras.overhead": 1, "fit.steps": 12}
+    told = ["+scene=scandinavian", "preset=draft", "scene.rooms=[living room,bathroom]", "report.enabled=false"]
+    told += [f"{name}={value}" for name, value in small.items()]
+    path = tmp_path_factory.mktemp("viewed") / "run"
+    run_pipeline(load_config([*told, f"output={path}"]), path)
+    return path
 
 
 @pytest.fixture(scope="module")

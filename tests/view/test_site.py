@@ -22,6 +22,11 @@ VENDOR = pathlib.Path(wm.view.__file__).parent / "vendor"
 
 
 @pytest.fixture(scope="module")
+def folder(finished):
+    return finished.folder
+
+
+@pytest.fixture(scope="module")
 def site(folder):
     return build_site(open_finished(folder))
 

@@ -7,7 +7,6 @@ import jax
 import numpy as np
 import pytest
 
-from tests.fitted_run import fitted_run
 from wm.export.records import ExportError
 from wm.export.splats.comparing import Steps, deviations
 from wm.export.splats.labelled_ply import read_labels
@@ -22,8 +21,8 @@ PLAIN = ("compressed_ply", "gltf_splats", "splat")
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
-    return fitted_run(tmp_path_factory.mktemp("fitted") / "run")
+def run(finished):
+    return finished
 
 
 @pytest.mark.parametrize("name", [*PLAIN, "labelled_ply"])

@@ -1,6 +1,7 @@
 """Every sort of room holds what makes it one and nothing that would make it another, in any size, shape, style and seed."""
 
 import functools
+import itertools
 
 import numpy as np
 import pytest
@@ -167,8 +168,11 @@ def test_every_sort_has_a_row():
 
 def test_every_equipment_stands_somewhere():
     equipped = [sort for sort in SORTS if ROOM_TYPES[sort] in EQUIPPED]
-    seen = {p.piece.label for sort in equipped for k in range(3) for p in furnished(sort, k)[1]}
-    assert seen >= set(EQUIPMENT)
+    missing = set(EQUIPMENT)
+    for k, sort in itertools.product(range(3), equipped):
+        if missing:  # the small rooms are furnished anyway, and hold most of it
+            missing -= {p.piece.label for p in furnished(sort, k)[1]}
+    assert not missing
 
 
 @pytest.mark.parametrize(("theme", "ceiling"), [("clockwork garden", 1.8), ("clockwork garden", 1.9), ("gothic mansion", 2.0)])

@@ -74,6 +74,7 @@ def entries(gaussians, view):
     return int((ids < len(gaussians.opacity_logits)).sum())
 
 
+@pytest.mark.slow
 def test_views_that_list_far_more_than_the_first_compile_few_steps():
     """Capacity grows in steps of x1.5 and never shrinks: what is compiled is bounded by the logarithm of its growth, not by the
     number of views. The gaussians hardly move, so that what a view lists stays as it is."""

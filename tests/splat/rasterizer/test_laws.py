@@ -70,7 +70,7 @@ def test_moving_world_and_camera_together_changes_nothing(seed):
     )
 
 
-@given(SEEDS, st.floats(0.2, 5.0))
+@given(SEEDS, st.sampled_from((0.2, 3.7)))  # each is compiled anew
 @settings(max_examples=10)
 def test_other_units_of_length_change_the_depth_only(seed, factor):
     # blur is in pixels and stays; `near`, which depths are kept from, is in the same unit as all else

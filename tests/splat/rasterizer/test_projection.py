@@ -114,7 +114,9 @@ def test_culled_gaussians_have_no_opacity_no_extent_and_no_gradient(case):
     assert all((x[0] == 0).all() for x in jax.tree.leaves(by_gaussians))
 
 
-@pytest.mark.parametrize("raster", [RasterSettings(), RasterSettings(antialias=True, depth=False)])
+@pytest.mark.parametrize(
+    "raster", [pytest.param(RasterSettings(), marks=pytest.mark.slow), RasterSettings(antialias=True, depth=False)]
+)
 def test_the_derivative_beside_a_known_result_is_the_derivative(raster):
     gaussians, view = to_float32(cloud(40, degree=2)), to_float32(camera(seed=3))
     projected, pull = jax.vjp(lambda gaussians: project(gaussians, view, raster), gaussians)

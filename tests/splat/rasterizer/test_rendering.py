@@ -69,6 +69,7 @@ def test_at_the_cuts_few_pixels_flip_and_by_little(seed):
     assert (error > 1e-5).mean() <= 0.01 and error.max() < 2e-2
 
 
+@pytest.mark.slow  # test_unpleasant.py has the same of scenes that are worse, by default
 @given(SEEDS)
 @settings(max_examples=8, deadline=None)
 def test_gradients_at_the_cuts(seed):

@@ -66,7 +66,7 @@ def test_vmap_over_cameras_gives_the_gradients(alone, settings):
     [
         lambda f, x: jax.jvp(f, (x,), (x,)),
         lambda f, x: jax.jvp(jax.grad(f), (x,), (x,)),
-        lambda f, x: jax.grad(lambda x: jax.grad(f)(x).sum())(x),
+        pytest.param(lambda f, x: jax.grad(lambda x: jax.grad(f)(x).sum())(x), marks=pytest.mark.slow),
     ],
     ids=["forward", "forward over reverse", "reverse twice"],
 )

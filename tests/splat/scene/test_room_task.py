@@ -64,6 +64,7 @@ def test_a_room_is_one_task_a_round_and_no_more_than_workers_are_submitted_at_on
     assert executor.most <= workers
 
 
+@pytest.mark.slow
 def test_processes_give_the_bytes_and_the_curve_of_threads_and_tell_a_round_of_a_room_at_once(processes, here):
     capacity, told = Capacity(), []
     there = run(
