@@ -30,7 +30,7 @@ core of the process, and a part is compiled to other roundings than the whole lo
 on any number of cores, and takes no longer, since rooms side by side keep the cores busy."""
 
 _adam = optax.scale_by_adam(b1=0.5, b2=0.99, eps=1e-15)
-"""A fit visits each view a few times only: the usual means over 10 and 1000 steps forget too slowly (experiments/fit_defaults)."""
+"""A fit sees each view a few times only: the usual means over 10 and 1000 steps forget too slowly (experiments/fit_defaults)."""
 
 
 @jax.tree_util.register_dataclass
