@@ -72,3 +72,16 @@ def test_nothing_to_do_says_nothing(monkeypatch, capsys):
     with progress("paint", 2) as bar:
         bar.update()
     assert "\r" in terminal.getvalue() and "paint" in terminal.getvalue()
+
+
+def test_control_c_ends_a_command_with_a_line_and_no_traceback(capsys):
+    def command():
+        raise KeyboardInterrupt
+
+    with pytest.raises(SystemExit) as ended:
+        console.end(command)
+    assert ended.value.code == 130
+    assert capsys.readouterr().err == "interrupted; the same command begins again\n"
+    with pytest.raises(SystemExit) as ended:
+        console.end(lambda: 2)
+    assert ended.value.code == 2

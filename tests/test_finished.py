@@ -45,6 +45,8 @@ def test_settings_are_those_of_the_run(folder):
 def test_a_folder_without_a_run_is_refused_and_so_is_what_a_run_lacks(folder, tmp_path):
     with pytest.raises(UnfinishedRunError, match="no run is there"):
         open_finished(tmp_path)
+    with pytest.raises(UnfinishedRunError, match=r"manifest\.json: is a file; give the folder of a run"):
+        open_finished(folder / "manifest.json")
     copy = tmp_path / "copy"
     shutil.copytree(folder, copy)
     (copy / "splats.ply").unlink()

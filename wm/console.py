@@ -6,7 +6,8 @@
 import contextlib
 import os
 import sys
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NoReturn
 
 
 def say(text: str) -> None:
@@ -19,6 +20,17 @@ def say(text: str) -> None:
     except (OSError, ValueError) as error:
         _silence(1)
         warn(f"wm: standard output cannot be written ({error}); the run goes on without it")
+
+
+def end(command: Callable[[], int]) -> NoReturn:
+    """Ends the process with the exit code of a command; Ctrl-C ends it with a line and 130 instead of a traceback."""
+    try:
+        code = command()
+    except KeyboardInterrupt:
+        warn("interrupted; the same command begins again")
+        code = 130
+    flush()
+    sys.exit(code)
 
 
 def warn(text: str) -> None:

@@ -157,6 +157,8 @@ def open_finished(folder: str | pathlib.Path) -> FinishedRun:
       OSError: it cannot be read.
     """
     path = pathlib.Path(folder)
+    if path.is_file():
+        raise UnfinishedRunError(f"{path}: is a file; give the folder of a run, such as outputs/gothic/full/0")
     try:
         manifest = read_manifest(path)
     except ManifestDamage as error:

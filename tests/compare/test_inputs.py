@@ -112,6 +112,12 @@ def test_an_image_of_each_room_and_the_prompt(finished, tmp_path):
     assert (tmp_path / "prompt.txt").read_text().strip() == finished.theme
 
 
+@pytest.mark.parametrize("words", [["--help"], ["inputs", "--help"]])
+def test_help_says_how(words, capsys):
+    assert main(words) == 0
+    assert "inputs RUN" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("words", [["inputs"], ["inputs", "a", "b"], ["inputs", "a", "to=[video]"], ["inputs", "a", "size=3"]])
 def test_wrong_words_are_one_line(words, capsys):
     assert main(words) == 2

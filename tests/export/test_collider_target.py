@@ -8,6 +8,8 @@ import pytest
 from wm.export import collider
 from wm.geometry.mesh.glb import save_glb
 from wm.geometry.mesh.glb_nodes import GlbNode
+from wm.geometry.rays.raycast import build_ray_scene
+from wm.types import Mesh
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +59,12 @@ def test_a_hole_and_a_dent_are_found(finished, written, tmp_path):
     (tmp_path / "collider" / "objects.json").write_text(json.dumps(told))
     failed = {check.what for check in collider.check(finished, tmp_path) if not check.passed}
     assert failed == {"rooms that are closed", "parts of objects that are convex", "gaps for a sphere of 5 cm"}
+
+
+def test_a_ray_along_an_edge_is_no_gap_and_a_hole_is_one():
+    corners = np.array([[0, 0, 0], [0, 1, 0], [0, 1, 1], [0, 0, 1]], float)
+    scene = build_ray_scene(Mesh.from_triangles(corners, np.array([[0, 1, 2], [0, 2, 3]])))
+    points = np.array([[0, -0.0005, 0.5], [0, 0.5, 1.0005], [0, -0.05, 0.5]])
+    normals = np.tile([1.0, 0.0, 0.0], (3, 1))
+    assert collider._misses(scene, points, normals).all()
+    assert collider._wide(scene, points, normals).tolist() == [False, False, True]

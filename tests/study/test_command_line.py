@@ -72,7 +72,8 @@ def test_what_is_wrong_is_one_line_and_code_2(arguments, message, tmp_path, caps
 
 
 def test_help_says_how(capsys):
-    assert main(["--help"]) == 0 and "METHOD=VIDEO_OR_FOLDER" in capsys.readouterr().out
+    for words in (["--help"], ["make", "--help"]):
+        assert main(words) == 0 and "METHOD=VIDEO_OR_FOLDER" in capsys.readouterr().out
     assert main([]) == 2
 
 

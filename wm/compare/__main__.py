@@ -26,7 +26,7 @@ BAD_INPUT = 2
 
 def main(words: Sequence[str]) -> int:
     """Does what the words ask for; returns the exit code."""
-    if not words or words[0] in ("-h", "--help"):
+    if not words or {"-h", "--help"} & set(words):
         console.say(HELP)
         return 0 if words else BAD_INPUT
     try:
@@ -44,4 +44,4 @@ def main(words: Sequence[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    console.end(lambda: main(sys.argv[1:]))

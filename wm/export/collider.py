@@ -28,7 +28,7 @@ from wm.geometry.mesh.glb import save_glb
 from wm.geometry.mesh.glb_nodes import GlbNode
 from wm.geometry.mesh.labelled_solids import polygon_rings
 from wm.geometry.plan.walls import room_polygons
-from wm.geometry.rays.raycast import build_ray_scene, cast_rays
+from wm.geometry.rays.raycast import RayScene, build_ray_scene, cast_rays
 from wm.geometry.rays.surface_points import surface_points
 from wm.types import Mesh, SceneObject
 
@@ -41,6 +41,7 @@ MOST_TRIANGLES = 200_000
 _COLOR = np.array([0.9, 0.5, 0.2])  # sRGB
 _REACH = 1.0  # metres of building above and below the rooms: more than its slabs
 _OFF = 0.01  # metres in front of a surface from which a gap is looked for
+_BESIDE = 0.001  # metres to each side of a ray that missed, of which no sphere's gap is as narrow
 
 Solid = tuple[Float[np.ndarray, "v 3"], Int[np.ndarray, "f 3"]]
 
@@ -126,9 +127,22 @@ def _gaps(run: FinishedRun, solids: Sequence[Any]) -> tuple[int, int]:
     corners = inner.vertices[inner.faces[inner.face_room >= 0]]
     area = float(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2)
     points = surface_points(inner, int(np.ceil(area / (SPHERE / 2) ** 2)))
-    hits = cast_rays(scene, points.position + _OFF * points.normal, -points.normal)
-    missed = ~hits.hit | (hits.t > _OFF + SPHERE / 2)
-    return int(missed.sum()), len(missed)
+    missed = _misses(scene, points.position, points.normal)
+    gaps = np.flatnonzero(missed)
+    return int(_wide(scene, points.position[gaps], points.normal[gaps]).sum()), len(missed)
+
+
+def _misses(scene: RayScene, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    hits = cast_rays(scene, points + _OFF * normals, -normals)
+    return ~hits.hit | (hits.t > _OFF + SPHERE / 2)
+
+
+def _wide(scene: RayScene, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Which misses are wider than a ray: one along the very edge of an opening passes the wall, a sphere does not."""
+    across = np.cross(normals, np.where(np.abs(normals[:, 2:]) < 0.5, [[0.0, 0.0, 1.0]], [[1.0, 0.0, 0.0]]))
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    up = np.cross(normals, across)
+    return np.all([_misses(scene, points + _BESIDE * step, normals) for step in (across, -across, up, -up)], axis=0)
 
 
 def _is_convex(vertices: np.ndarray, faces: np.ndarray) -> bool:

@@ -10,6 +10,7 @@ from pathlib import Path
 from tabulate import tabulate
 
 from wm.artifacts.atomic import write_atomically
+from wm.artifacts.digests import file_digest
 from wm.errors import InputError
 from wm.export.records import ExportError
 from wm.export.targets import TARGETS, check_targets
@@ -19,7 +20,7 @@ from wm.stages.progress import progress
 FOLDER = "export"
 """Where in a run folder exports go that name no folder."""
 LIST = "targets.json"
-"""What a folder of exports holds: the files of each target."""
+"""What a folder of exports holds: the files of each target, and the digest of each file."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -67,9 +68,15 @@ def export(run: FinishedRun, names: Sequence[str], folder: Path | None = None) -
 
 def exported_files(folder: Path) -> dict[str, list[str]]:
     """The files of each target that was written to a folder, in the order of names. Raises: ExportError: none was."""
+    return {name: list(files) for name, files in exported_digests(folder).items()}
+
+
+def exported_digests(folder: Path) -> dict[str, dict[str, str | None]]:
+    """By target and file the digest of what was written; None where an older version wrote it. Raises: ExportError: none was."""
     try:
         told = json.loads((folder / LIST).read_text(encoding="utf-8"))
-        return {str(name): list(files) for name, files in told["targets"].items()}
+        digests = told.get("digests", {})
+        return {str(name): {str(file): digests.get(file) for file in files} for name, files in told["targets"].items()}
     except FileNotFoundError as error:
         raise ExportError(f"{folder}: nothing was exported there; python -m wm.export RUN does") from error
     except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -78,11 +85,17 @@ def exported_files(folder: Path) -> dict[str, list[str]]:
 
 def _note(folder: Path, exported: Exported) -> None:
     """Adds the files of a target to the folder's list; a damaged list is begun again."""
-    known: dict[str, list[str]] = {}
+    known: dict[str, dict[str, str | None]] = {}
     with contextlib.suppress(ExportError):
-        known = exported_files(folder)
-    known[exported.target] = sorted(Path(os.path.relpath(path, folder)).as_posix() for path in exported.paths)
-    told = {"version": 1, "targets": dict(sorted(known.items()))}
+        known = exported_digests(folder)
+    known[exported.target] = {
+        Path(os.path.relpath(path, folder)).as_posix(): file_digest(path) for path in sorted(exported.paths)
+    }
+    told = {
+        "version": 1,
+        "targets": {name: sorted(files) for name, files in sorted(known.items())},
+        "digests": {file: one for files in known.values() for file, one in sorted(files.items()) if one is not None},
+    }
     write_atomically(folder / LIST, json.dumps(told, indent=1) + "\n")
 
 

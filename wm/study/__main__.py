@@ -33,7 +33,7 @@ docs/study.md says more."""
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command. Returns 0, or 2 where it cannot be done; the reason is a line on stderr."""
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if not words or words[0] in ("-h", "--help", "help"):
+    if not words or words[0] == "help" or {"-h", "--help"} & set(words):
         console.say(_USAGE)
         return 0 if words else BAD_INPUT
     try:
@@ -107,4 +107,4 @@ _COMMANDS: dict[str, tuple[tuple[str, ...], Callable[[Words], None]]] = {
 }
 
 if __name__ == "__main__":
-    sys.exit(main())
+    console.end(main)

@@ -86,4 +86,4 @@ def _served(site: Site, asked: Asked) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    console.end(main)
