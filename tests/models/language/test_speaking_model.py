@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.json_schemas import faults
-from wm.geometry.plan.layout_json import CEILING, OPENING_SIZES, WALL
-from wm.geometry.plan.layout_schema import layout_schema
+from wm.geometry.plan.layout_json import WALL
+from wm.geometry.plan.layout_schema import OPENING_SIZES, STANDING, layout_schema
 from wm.models.language.conversation import plan_conversation, things_conversation
 from wm.models.language.speaking_model import SpeakingModel
 from wm.models.language.spoken_text import spoken_text
@@ -69,7 +69,7 @@ def test_a_plan_is_asked_for_by_theme_rooms_and_the_rules_of_the_reader(family):
         f"at least {door_width:g} m wide and {door_height:g} m high",
         f"at least {window:g} m wide and high",
         f"between {WALL[0]:g} and {WALL[1]:g}, usually",
-        f"between {CEILING[0]:g} and {CEILING[1]:g}, usually",
+        f"between {STANDING[0]:g} and {STANDING[1]:g}, usually",
     ):
         assert said in asked.system
     assert asked.schema == layout_schema()
