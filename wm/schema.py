@@ -203,7 +203,7 @@ class FitSettings:
     lr_sh: float = number(5.6e-2, 0, 1000, "Learning rate of the colours.")
     lr_final: float = number(0.1, 1e-9, 1e4, "Learning rates change geometrically to this share; above 1 they grow.")
     exposure: bool = setting(False, "Fit a gain and an offset for each view and channel, for image models that drift.")
-    lr_exposure: float = number(0.05, 0, 1000, "What gain and offset move by in a step if all pixels of a view are too bright.")
+    lr_exposure: float = number(0.035, 0, 1000, "What gain and offset move by in a step if all pixels of a view are too bright.")
     refine_every: int = number(
         0, 0, 10_000_000, "Steps between refinements, which give faint gaussians to where the residual stays; 0: none."
     )

@@ -41,8 +41,8 @@ def heldout_psnr(views, **changes):
 def test_views_that_drift_are_fitted_better_with_it_and_views_that_do_not_lose_nothing():
     drift = {on: heldout_psnr(drifting(VIEWS), exposure=on) for on in (False, True)}
     steady = {on: heldout_psnr(VIEWS, exposure=on) for on in (False, True)}
-    assert drift[True] > drift[False] + 1.0  # dB; 1.5 when this was written
-    assert steady[True] > steady[False] - 0.1  # 0.1 better
+    assert drift[True] > drift[False] + 1.0  # dB; 1.2 when this was written
+    assert steady[True] > steady[False] - 0.1  # 0.06 worse
 
 
 def test_exposures_of_all_views_keep_the_identity_as_their_mean():
