@@ -36,6 +36,7 @@ Importing `wm` itself loads none of its modules. Each imports only those below i
     process       worker processes
     bounds        what a field of a settings record may hold
     memory        resident memory of this process and its children
+    compiler_options  options for jax.jit on a CPU
     console       lines for the user, on streams that may be closed or full
     environment   texts of a configuration that come out of the environment, never shown
     host          what the machine has

@@ -12,6 +12,7 @@
     formats       load_splats and writers: compressed PLY, .splat, SPZ, SOG and glTF
 """
 
+from wm.compiler_options import WIDE
 from wm.splat.metrics import DepthError, NormalError, depth_error, normal_error, normals_from_depth, one_surface, psnr
 from wm.splat.optimization.cloud import initial_gaussians
 from wm.splat.optimization.curve import FitPoint
@@ -28,7 +29,6 @@ from wm.splat.reprojection import ReprojectionError, mutual_pixels, overlap, rep
 from wm.splat.scene.scene_fit import SceneFit, fit_scene
 from wm.splat.scene.scene_render import SceneRenderer
 from wm.splat.similarity import ssim, ssim_map
-from wm.splat.xla.vector_width import WIDE
 
 __all__ = [
     "WIDE",

@@ -12,7 +12,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from wm.splat.xla.vector_width import WIDE
+from wm.compiler_options import UNPARTITIONED
 
 PRIMES = (0x9E3779B1, 0x85EBCA77, 0x27D4EB2F)
 """Of the three coordinates of a cell in its hash."""
@@ -25,8 +25,6 @@ BLOCK = 2048
 """Points of which all octaves are computed before the next: their temporaries stay in the cache."""
 _SIZES = (2048, 8192, 32768, 131072)
 """Lengths of arrays that are compiled for; only the blocks that hold points cost time."""
-_OPTIONS = WIDE | {"xla_disable_hlo_passes": "cpu-parallel-task-assigner"}
-"""The same bytes on any number of cores."""
 
 
 def noise_sum(
@@ -63,7 +61,7 @@ def _blocks(coordinates, footprint, blocks, wavelength, octaves, gain, seed):
     return jax.lax.fori_loop(0, blocks, block, jnp.zeros_like(footprint))
 
 
-_summed = jax.jit(_blocks, compiler_options=_OPTIONS)
+_summed = jax.jit(_blocks, compiler_options=UNPARTITIONED)
 
 
 def _octaves(coordinates, footprint, wavelength, octaves, gain, seed):

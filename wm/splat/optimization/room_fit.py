@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 import jax
 import numpy as np
 
+from wm.compiler_options import UNPARTITIONED
 from wm.schema import FitSettings
 from wm.splat.metrics import depth_error, normal_error, normals_from_depth, psnr
 from wm.splat.optimization.batch import Compiled, Device, SeenView, ViewLoss, batch_at, batch_losses
@@ -23,7 +24,7 @@ from wm.splat.optimization.normal_loss import smooth_pixels
 from wm.splat.optimization.padding import host, pad_gaussians, pad_rows, unpad_rows
 from wm.splat.optimization.refinement import is_due, no_residual, observe, refine
 from wm.splat.optimization.room_state import NOTHING_SINCE, RoomState
-from wm.splat.optimization.step import UNPARTITIONED, Rates, Trainable, TrainState, move, rates_at, start_state
+from wm.splat.optimization.step import Rates, Trainable, TrainState, move, rates_at, start_state
 from wm.types import Gaussians
 
 _smooth_pixels = jax.jit(smooth_pixels, compiler_options=UNPARTITIONED)

@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 import optax
 
+from wm.compiler_options import UNPARTITIONED
 from wm.schema import FitSettings, RasterSettings
 from wm.splat.optimization.exposure import expose
 from wm.splat.optimization.losses import depth_loss, photometric_terms
@@ -21,13 +22,7 @@ from wm.splat.optimization.normal_loss import normal_loss
 from wm.splat.rasterizer.compositing import rasterize
 from wm.splat.rasterizer.projection import Projected, project, project_vjp
 from wm.splat.rasterizer.tiles import TilePlan
-from wm.splat.xla.vector_width import WIDE
 from wm.types import Camera, Gaussians, Render
-
-UNPARTITIONED = WIDE | {"xla_disable_hlo_passes": "cpu-parallel-task-assigner"}
-"""Compiler options of all functions that decide a byte of a fit. By default XLA on a CPU partitions large loops, one part per
-core of the process, and a part is compiled to other roundings than the whole loop. Without partitioning a fit has the same bytes
-on any number of cores, and takes no longer, since rooms side by side keep the cores busy."""
 
 _adam = optax.scale_by_adam(b1=0.5, b2=0.99, eps=1e-15)
 """A fit sees each view a few times only: the usual means over 10 and 1000 steps forget too slowly (experiments/fit_defaults)."""

@@ -1,4 +1,4 @@
-"""Compiler options for vectors of 512 bits on CPUs that have them; by default XLA uses at most 256."""
+"""`jax.jit` with vectors of 512 bits on CPUs that have them."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -8,9 +8,7 @@ import jax
 import jax.numpy as jnp
 from jax.core import Tracer
 
-WIDE = {"xla_cpu_prefer_vector_width": "512"}
-"""Compiler options for `jax.jit` of anything that rasterizes on a CPU; JAX accepts them at the outermost jit only. They are a
-preference: LLVM uses what the processor has, and compilers for other devices ignore it."""
+from wm.compiler_options import WIDE
 
 
 def jit_wide(f: Callable, static_argnames: Sequence[str]) -> Callable:
