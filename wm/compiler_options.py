@@ -1,4 +1,4 @@
-"""Compiler options for `jax.jit` on a CPU. JAX accepts them at the outermost jit only; compilers for other devices ignore them."""
+"""Compiler options for `jax.jit` on a CPU. JAX takes them at the outermost jit only; compilers for other devices ignore them."""
 
 WIDE = {"xla_cpu_prefer_vector_width": "512"}
 """Vectors of 512 bits; by default XLA uses at most 256. They are a preference: LLVM uses what the processor has."""
