@@ -24,6 +24,7 @@ from wm.export.simulation.house import house_names
 from wm.export.simulation.hulls import Hull, convex_hull
 from wm.export.simulation.parts import parts_of
 from wm.finished import FinishedRun
+from wm.geometry.mesh.axes import Y_UP
 from wm.geometry.mesh.glb import save_glb
 from wm.geometry.mesh.glb_nodes import GlbNode
 from wm.geometry.mesh.labelled_solids import polygon_rings
@@ -119,7 +120,7 @@ def check(run: FinishedRun, folder: Path) -> Sequence[Check]:
 
 def _gaps(run: FinishedRun, solids: Sequence[Any]) -> tuple[int, int]:
     """Rays at the structure's inner surfaces, a sphere's radius apart, that meet no collider there; and how many were cast."""
-    vertices = np.concatenate([_z_up(solid.vertices) for solid in solids])
+    vertices = np.concatenate([solid.vertices @ Y_UP for solid in solids])
     offsets = np.cumsum([0, *(len(solid.vertices) for solid in solids[:-1])])
     faces = np.concatenate([np.asarray(solid.faces) + offset for solid, offset in zip(solids, offsets)])
     scene = build_ray_scene(Mesh.from_triangles(vertices, faces))
@@ -172,7 +173,3 @@ def _read(path: Path) -> Any:
         scene = trimesh.load_scene(file, file_type="glb", process=False)
     (mesh,) = scene.geometry.values()
     return mesh
-
-
-def _z_up(points: np.ndarray) -> np.ndarray:
-    return np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1)

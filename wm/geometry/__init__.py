@@ -13,7 +13,6 @@ embreex is imported when the first ray scene is built and trimesh when the first
 
 from wm.geometry.cameras.camera_file import CameraFileError as CameraFileError
 from wm.geometry.cameras.camera_file import load_cameras as load_cameras
-from wm.geometry.cameras.camera_file import opengl_pose as opengl_pose
 from wm.geometry.cameras.colmap import save_colmap as save_colmap
 from wm.geometry.cameras.heldout import place_heldout as place_heldout
 from wm.geometry.cameras.sightlines import visible_rooms as visible_rooms
@@ -24,6 +23,7 @@ from wm.geometry.cameras.walk import walkthrough as walkthrough
 from wm.geometry.exchange.mesh_error import MeshError as MeshError
 from wm.geometry.exchange.object_file import load_object as load_object
 from wm.geometry.exchange.trimeshes import object_to_trimesh as object_to_trimesh
+from wm.geometry.mesh.axes import opengl_pose as opengl_pose
 from wm.geometry.mesh.glb import save_glb as save_glb
 from wm.geometry.mesh.glb_lights import house_lights as house_lights
 from wm.geometry.mesh.glb_nodes import GlbLight as GlbLight

@@ -10,10 +10,10 @@ from scipy.spatial import KDTree
 from wm.export.simulation.bodies import Body
 from wm.finished import FinishedRun
 from wm.geometry.exchange.parts import read_parts
+from wm.geometry.mesh.axes import Y_UP
 from wm.stages.painting import SCAFFOLD
 from wm.types import OUTSIDE, Mesh, SurfaceKind, Texture
 
-_Y_UP_TO_Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 _NEAR = 1e-3  # metres between the corners of a triangle in the scaffold's file and of the same one in the structure
 _COLORS = {
     SurfaceKind.WALL: (0.85, 0.83, 0.79),
@@ -112,7 +112,7 @@ def _painted(run: FinishedRun) -> _Painted | None:
     for part in read_parts(run.scaffold_file):
         if part.paint.image is None or part.corner_uv is None:
             continue
-        theirs = part.corners @ _Y_UP_TO_Z_UP.T
+        theirs = part.corners @ Y_UP
         face = np.asarray(near.query(theirs.mean(axis=1))[1])
         gap = np.linalg.norm(corners[face][:, :, None] - theirs[:, None, :], axis=-1)
         same = gap.min(axis=2).max(axis=1) < _NEAR

@@ -13,18 +13,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 from PIL import Image
 
+from wm.geometry.mesh.axes import OPENGL_FROM_OPENCV
 from wm.types import OUTSIDE, Camera, View
 
-_OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0, 1.0])
 _DISTORTION = ("k1", "k2", "k3", "k4", "p1", "p2")
-
-
-def opengl_pose(camera: Camera) -> Float[np.ndarray, "4 4"]:
-    """The pose of a camera as transforms.json has it: camera to world, with OpenGL's axes."""
-    return np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _OPENGL_FROM_OPENCV
 
 
 class CameraFileError(ValueError):
@@ -106,7 +100,7 @@ def _camera(where: str, numbers: Mapping[str, Any], T_world_gl: np.ndarray, fold
     fy = _focal(where, numbers, "y", height) if "fl_y" in numbers or "camera_angle_y" in numbers else fx
     principal = [_number(where, numbers, name, size / 2) for name, size in (("cx", width), ("cy", height))]
     return Camera(
-        T_cam_world=np.linalg.inv(T_world_cam @ _OPENGL_FROM_OPENCV),
+        T_cam_world=np.linalg.inv(T_world_cam @ OPENGL_FROM_OPENCV),
         focal=np.array([fx, fy]),
         principal=np.array(principal),
         width=width,

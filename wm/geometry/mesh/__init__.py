@@ -1,5 +1,6 @@
 """Triangle meshes of a scene: the structure carved from solids, objects added to it, and both written to files.
 
+    axes             y up for z up, OpenGL's cameras for OpenCV's
     scene_mesh       assemble_scene, check_mesh, normals and boxes
     labelled_solids  solids with a label on every plane, and how they are carved
     slivers          triangles without height removed

@@ -24,14 +24,15 @@ import numpy as np
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
+from wm.geometry.mesh.axes import Y_UP, opengl_pose
 from wm.geometry.mesh.glb_nodes import GlbLight, GlbNode
 from wm.types import View
 
 _FLOAT, _UINT32 = 5126, 5125  # componentType
 _VERTICES, _INDICES = 34962, 34963  # bufferView.target
 _LINEAR, _LINEAR_MIPMAP, _CLAMP = 9729, 9987, 33071  # sampler
-_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # our axes to glTF's
-_LOOKING_BACK = np.diag([1.0, -1.0, -1.0, 1.0])  # glTF's cameras look along -z and have y up
+_T_Y_UP = np.eye(4)
+_T_Y_UP[:3, :3] = Y_UP
 _NEAR = 0.05  # metres
 
 
@@ -156,13 +157,13 @@ class _Document:
         aspect = camera.width / camera.height * float(camera.focal[1]) / float(camera.focal[0])
         lens = {"yfov": yfov, "aspectRatio": aspect, "znear": _NEAR}
         self.cameras.append({"name": view.name, "type": "perspective", "perspective": lens})
-        pose = _Y_UP @ np.linalg.inv(np.asarray(camera.T_cam_world, np.float64)) @ _LOOKING_BACK
+        pose = _T_Y_UP @ opengl_pose(camera)
         self.nodes.append({"name": view.name, "camera": len(self.cameras) - 1, **_placed(pose)})
 
     def _add_node(self, node: GlbNode, frame: np.ndarray) -> None:
         """A node with an empty mesh; the primitives of all nodes of its name go into it."""
         self._frames[node.name], self._named[node.name] = frame, len(self.nodes)
-        placed = {} if node.T_world_node is None else _placed(_Y_UP @ frame @ _Y_UP.T)
+        placed = {} if node.T_world_node is None else _placed(_T_Y_UP @ frame @ _T_Y_UP.T)
         extras = {"extras": node.extras} if node.extras else {}
         self.nodes.append({"name": node.name, "mesh": len(self.meshes), **placed, **extras})
         self.meshes.append({"name": node.name, "primitives": []})
@@ -278,7 +279,7 @@ def _linear(srgb: np.ndarray) -> np.ndarray:
 
 def _y_up(points: np.ndarray) -> np.ndarray:
     """Points [..., 3] in glTF's axes."""
-    return points @ _Y_UP[:3, :3].T
+    return points @ Y_UP.T
 
 
 def _placed(T: np.ndarray) -> dict[str, list[float]]:

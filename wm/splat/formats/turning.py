@@ -8,13 +8,11 @@ import jax
 import numpy as np
 from jaxtyping import Float, Float32
 
+from wm.geometry.mesh.axes import Y_UP
 from wm.splat.ply.standard import unit_quats
 from wm.splat.rasterizer.checks import DEGREES
 from wm.splat.rasterizer.harmonics import harmonics
 from wm.types import Gaussians
-
-Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
-"""From z up to y up: (x, y, z) becomes (x, z, -y), as in scaffold.glb (`wm.geometry.mesh.glb`). Its transpose leads back."""
 
 _DIRECTIONS = np.random.default_rng(0).normal(size=(64, 3))
 _DIRECTIONS /= np.linalg.norm(_DIRECTIONS, axis=1, keepdims=True)
