@@ -10,7 +10,6 @@ import pathlib
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
-import jax
 import numpy as np
 from jaxtyping import Int
 
@@ -24,7 +23,7 @@ from wm.geometry.plan.loading import stored_plan
 from wm.schema import CameraSettings, NavigationSettings, RasterSettings
 from wm.stages.arranged import arranged
 from wm.stages.painting import SCAFFOLD
-from wm.stages.reconstruction import BY_ROOM, SPLATS, is_visible, split_rooms
+from wm.stages.reconstruction import BY_ROOM, SPLATS, is_visible, split_rooms, visible_gaussians
 from wm.stages.scene import CAMERAS, HELDOUT_CAMERAS, OBJECT_ARRAYS, OBJECTS, PLAN
 from wm.types import Gaussians, Mesh, SceneObject, View
 
@@ -122,8 +121,7 @@ class FinishedRun:
     @functools.cached_property
     def gaussians(self) -> Gaussians:
         """The visible gaussians of all rooms in order: those of `splats.ply`."""
-        merged = jax.tree.map(lambda *leaves: np.concatenate(leaves), *self.gaussians_by_room)
-        return jax.tree.map(lambda leaf: leaf[is_visible(merged)], merged)
+        return visible_gaussians(self.gaussians_by_room)
 
     @functools.cached_property
     def gaussian_room(self) -> Int[np.ndarray, " n"]:

@@ -116,17 +116,21 @@ def test_spatialgen_comes_back_into_the_layout_in_metres(tmp_path):
     np.testing.assert_allclose(np.asarray(camera.T_cam_world)[2, :3], [1, 0, 0], atol=1e-6)
 
 
+@dataclasses.dataclass
 class Harmful:
+    touches: pathlib.Path
+
     def __reduce__(self):
-        return pathlib.Path.touch, (pathlib.Path("/tmp/touched-by-a-pickle"),)
+        return pathlib.Path.touch, (self.touches,)
 
 
 def test_a_pickle_that_would_run_something_is_refused(tmp_path):
-    writers.spatialgen_npz(tmp_path / "inference_results.npz", {"input_points": Harmful()})
+    touched = tmp_path / "touched-by-a-pickle"
+    writers.spatialgen_npz(tmp_path / "inference_results.npz", {"input_points": Harmful(touched)})
     with pytest.raises(CompareError, match="arrays and plain values would be right"):
         read("spatialgen", tmp_path)
-    assert pickle.dumps(Harmful())
-    assert not pathlib.Path("/tmp/touched-by-a-pickle").exists()
+    assert pickle.dumps(Harmful(touched))
+    assert not touched.exists()
 
 
 FILES = {

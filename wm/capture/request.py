@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from wm.errors import InputError
+from wm.export.words import ExportWordsError, listed, run_and_words
 
 FORMATS = ("nerfstudio", "npz", "tum")
 PATHS = ("walk", "orbit", "views", "heldout")
@@ -60,25 +61,18 @@ def parse_request(words: Sequence[str]) -> CaptureRequest:
     Raises:
         CaptureError: a word is unknown, or a value is; the message names what would be right.
     """
-    folders, told = [], {}
-    for word in words:
-        key, sign, value = word.partition("=")
-        if not sign or Path(word).exists():
-            folders.append(word)
-        elif key not in KEYS:
-            raise CaptureError(f"there is no key {key!r}; keys are {', '.join(KEYS)}")
-        else:
-            told[key] = value
-    if len(folders) != 1 or folders[0].startswith("-"):
-        raise CaptureError(f"give the folder of one run, such as outputs/gothic/full/0; {' '.join(folders) or 'none'} was given")
+    try:
+        run, told = run_and_words(words, KEYS)
+    except ExportWordsError as error:
+        raise CaptureError(str(error)) from error
     values: dict = {key: _number(key, told.pop(key)) for key in _BOUNDS if key in told}
     values |= {key: _one_of(key, told.pop(key), choices) for key, choices in _CHOICES.items() if key in told}
     if "format" in told:
-        names = [name.strip() for name in told.pop("format").strip("[] ").split(",")]
+        names = listed(told.pop("format")) or [""]
         values["formats"] = tuple(sorted({_one_of("format", name, FORMATS) for name in names}))
     if "output" in told:
         values["output"] = Path(told.pop("output"))
-    request = CaptureRequest(run=Path(folders[0]), **told, **values)
+    request = CaptureRequest(run=run, **told, **values)
     return _checked(request)
 
 
